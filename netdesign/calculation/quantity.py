@@ -413,8 +413,3 @@ def tan(angle: Quantity) -> Quantity:
 def at_value(quantity: Quantity) -> Quantity:
     """The value alone, without the band."""
     return apply("at_value", quantity)
-
-
-def above_zero(quantity: Quantity) -> Quantity:
-    """The quantity where it is positive, else zero."""
-    return apply("max", quantity, 0.0)

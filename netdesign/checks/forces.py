@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 from netdesign.calculation.quantity import (
     Quantity,
-    above_zero,
     at_value,
     cos,
     largest,
@@ -165,17 +164,11 @@ def load_shared_anchor_in_line(
 
 
 def load_post(
-    part: Quantity,
-    share: Quantity,
-    pull: Quantity,
-    splay: Quantity,
-    least_tension: Quantity,
-    *,
-    mark: str = "",
+    part: Quantity, share: Quantity, pull: Quantity, splay: Quantity, *, mark: str = ""
 ) -> MemberLoad:
-    """Post between splayed guys: the load along the row less what they hold anyway."""
-    held = above_zero(share * pull / tan(splay) - least_tension)
-    return MemberLoad(added=(part * held).named(f"A{mark}", "kN", "(S18)"))
+    """Post between splayed guys, pressed by the load along the row that they hold."""
+    pressed = part * (share * pull / tan(splay))
+    return MemberLoad(added=pressed.named(f"A{mark}", "kN", "(S18)"))
 
 
 def bring_to_support(
@@ -323,13 +316,11 @@ def press_one_way(
     share: Quantity,
     pull: Quantity,
     splay: Quantity,
-    least_tension: Quantity,
     *,
     mark: str = "",
 ) -> Quantity:
     """Compression of the second post by that pull and the load along the row, (S18)."""
-    sideways, least = at.widen(share * pull), at.widen(least_tension)
-    held = above_zero((sideways + rope) / tan(splay) - least)
+    held = (at.widen(share * pull) + rope) / tan(splay)
     return (weight * held).named(f"Z{mark}", "kN", "(P11)")
 
 

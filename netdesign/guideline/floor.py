@@ -101,14 +101,11 @@ class HeadSpan:
     ----------
     pull : float
         Largest pull of the net on a head, of a support inside the row [N].
-    least_tension : float
-        Least tension of the guys at work [N].
     foot_least, foot_largest : float
         Inclination of the pull on the foot anchor, as `measure_pull` has it [rad].
     """
 
     pull: float
-    least_tension: float
     foot_least: float
     foot_largest: float
 
@@ -205,18 +202,9 @@ def _take_floor(
 
 
 def _measure_head(largest: Floats) -> HeadSpan:
-    """Span of what acts at head and foot, from the largest values of the search.
-
-    A tension with a sign is that of the uphill guy, or less that of the downhill one.
-    Between a load with one sign and one with the other lies one without tension.
-    """
-    pull, turn, less_turn, most, less = map(float, largest[len(_LOADED) :])
-    return HeadSpan(
-        pull=pull,
-        least_tension=max(0.0, -less, -most),
-        foot_least=-less_turn,
-        foot_largest=turn,
-    )
+    """Span of what acts at head and foot, from the largest values of the search."""
+    pull, turn, less_turn = map(float, largest[len(_LOADED) :])
+    return HeadSpan(pull=pull, foot_least=-less_turn, foot_largest=turn)
 
 
 def _spread(ranges: NetRanges) -> list[Floats]:
@@ -250,13 +238,11 @@ class _Scan:
         """Values that are made as large as they can be, at points, shape (q, n).
 
         Of each layout member forces, pull on the head, direction of the foot's pull and
-        less that direction, the tension of the guys with a sign and less that.
+        less that direction.
         """
         tried = self.try_points(points)
-        turn = tried[_TURN]
-        signed = tried[Member.UPHILL_GUY] - tried[Member.DOWNHILL_GUY]
         members = (tried[member] for member in _LOADED)
-        sought = (*members, tried[_HEAD], turn, -turn, signed, -signed)
+        sought = (*members, tried[_HEAD], tried[_TURN], -tried[_TURN])
         shape = (len(self.layouts), len(points.T))
         largest = [np.broadcast_to(one.max(axis=(-3, -2)), shape) for one in sought]
         values: Floats = np.stack(largest, axis=1).reshape(-1, shape[1])

@@ -26,6 +26,7 @@ from netdesign.words.catalogue import (
     render,
     round_force_up,
     set_marks,
+    write_unit,
 )
 from netdesign.words.message import Argument, Message, say
 
@@ -209,9 +210,6 @@ def show_verdict(verdict: Verdict, words: Words) -> VerdictWords:
     return replace(VERDICTS[verdict], word=word, meaning=meaning)
 
 
-_UNITS = {"deg": "°", "kg/m3": "kg/m³", "m2": "m²", "mm2": "mm²", "N/mm2": "N/mm²"}
-
-
 def show_text(text: str) -> str:
     """Text on one line without control characters; "-" if nothing is left.
 
@@ -258,7 +256,7 @@ def _round_figures(value: float) -> str:
 
 def show_unit(unit: str) -> str:
     """Unit as an engineer writes it: ``kg/m³`` for the workbook's ``kg/m3``."""
-    return _UNITS.get(unit, show_text(unit))
+    return write_unit(show_text(unit))
 
 
 def append_unit(shown: str, unit: str) -> str:

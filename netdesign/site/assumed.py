@@ -100,13 +100,12 @@ class Assumed:
 
     @property
     def _unit(self) -> str:
-        return _SIGNS.get(self.unit, f" {self.unit}")
+        return f" {self.unit}" if self.unit.strip("-") else ""
 
 
 _SAGS = ("ridge_sag", "lower_sag")  # makers state them in percent
 MULTIPLE = "D_K"  # unit of what is a multiple of the net's height
 _OF_UNIT = {"m": "assumed.length", "a": "assumed.years"}  # texts of one value
-_SIGNS = {"": "", "-": "", "deg": "°", "kg/m3": " kg/m³"}
 
 
 @lru_cache(maxsize=1)

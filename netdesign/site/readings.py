@@ -30,6 +30,7 @@ from netdesign.site.columns.fields import (
     to_si,
 )
 from netdesign.site.model import InputEcho
+from netdesign.words.catalogue import write_unit
 from netdesign.words.message import Message, say
 
 State = Literal["given", "blank", "default", "faulty"]
@@ -199,7 +200,7 @@ def explain_unit(unit: str, field: Field) -> Refusal:
     rule = say("heading.unknown_unit") if unit else say("heading.no_unit")
     if unit in UNCLEAR_UNITS:
         rule = say("heading.unclear_unit", readings=UNCLEAR_UNITS[unit])
-    units = tuple(f"[{name}]" for name in field.units)
+    units = tuple(f"[{write_unit(name)}]" for name in field.units)
     return Refusal(rule, say("accepted.units", units=units))
 
 
@@ -348,8 +349,9 @@ def _take_number(cell: Cell, unit: str) -> float | Refusal:
 
 def _name_number(number: float, unit: str) -> Message:
     """Number with the unit that the cell's format shows, if it shows one."""
-    key = "text.number_in" if unit else "value.number"
-    return say(key, number=number, **({"unit": unit} if unit else {}))
+    if not unit:
+        return say("value.number", number=number)
+    return say("text.number_in", number=number, typed=unit)
 
 
 def _take_typed_number(text: str, mark: DecimalMark, unit: str) -> float | Refusal:

@@ -216,13 +216,10 @@ class HeldSidewaysRecord:
     pull_low_kN: float  # largest pull on a head, over the cases
     pull_kN: float
     pull_high_kN: float
-    # over the cases: none is counted on, panel/THEORY.md, 6
-    least_tension_kN: float = 0.0
     uphill_part: float  # c of the uphill guy
     downhill_part: float
     post_part: float  # w
     floor_pull_kN: float = 0.0  # largest pull on a head by the guideline's load
-    floor_tension_kN: float = 0.0  # its least tension of the guys
 
 
 @dataclass(frozen=True, kw_only=True)

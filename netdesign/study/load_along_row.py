@@ -31,7 +31,7 @@ from netdesign.structure.splay import (
     weigh_splay,
 )
 from netdesign.study.case_records import EndGuyRecord, HeldSidewaysRecord
-from netdesign.study.row_to_check import RowToCheck, is_layout_assumed
+from netdesign.study.row_to_check import RowToCheck
 from netdesign.units import (
     degree_from_radian,
     kilonewton_from_newton,
@@ -80,7 +80,7 @@ def _record(
     floor: HeadSpan | None,
     load: tuple[float, float],
 ) -> HeldSidewaysRecord:
-    row, extremes, (share, splay) = task.row, task.solved.extremes, load
+    extremes, (share, splay) = task.solved.extremes, load
     hidden = {
         member: find_hidden(member, extremes)
         for member in (*GUYS, Member.POST)
@@ -94,8 +94,7 @@ def _record(
         pull_kN=kilonewton_from_newton(pull.value),
         pull_high_kN=kilonewton_from_newton(pull.high),
         floor_pull_kN=kilonewton_from_newton(floor.pull if floor else 0.0),
-        floor_tension_kN=kilonewton_from_newton(_find_floor_tension(row, floor)),
-        **weigh_places(_place_heads(row, heads)),
+        **weigh_places(_place_heads(task.row, heads)),
     )
 
 
@@ -110,16 +109,6 @@ def weigh_places(places: Iterable[SupportPoints]) -> dict[str, float]:
         "downhill_part": max(float(weight.largest_downhill) for weight in weights),
         "post_part": max(float(weight.post) for weight in weights),
     }
-
-
-def _find_floor_tension(row: NetRow, floor: HeadSpan | None) -> float:
-    """Least tension of the guys at work under the guideline's load [N].
-
-    It is 0 where the altitude is not known, since a lower row has less snow. So it is
-    between two layouts as they may be built: a guy can give way to that beyond.
-    """
-    is_open = row.altitude is None or is_layout_assumed(row)
-    return 0.0 if floor is None or is_open else floor.least_tension
 
 
 _INCLINATIONS = 8  # parts of their range: what the guy brings changes smoothly

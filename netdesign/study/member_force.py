@@ -264,7 +264,7 @@ class _MemberAt:
     def _list_along(self, mark: str) -> tuple[Quantity, ...]:
         """Weight of the load along the row in the member, its share, pull and splay.
 
-        None of a member that it does not load. A post has what its guys hold anyway.
+        None of a member that it does not load.
         """
         held, name = self.forces.along_row, _WEIGHTS.get(self.member)
         if held is None or name is None or self._is_at_foot:
@@ -275,17 +275,14 @@ class _MemberAt:
             kind=Kind.SOLVED,
             band=(held.pull_low_kN, held.pull_high_kN),
         )
-        tension = ("T_min", held.least_tension_kN, "kN", "least_tension")
         if mark:
             pull = _solved("P_g", held.floor_pull_kN, "kN", "floor.head_pull")
-            tension = ("T_min_g", held.floor_tension_kN, "kN", "floor.least_tension")
-        along = (
+        return (
             _solved(symbol, getattr(held, name), "-", name),
             find_profile_value(self.forces.standard, LATERAL_SHARE, "k"),
             pull,
             leaf("β", held.splay_deg, "deg", find_cell(self.forces.row, "guy_splay")),
         )
-        return (*along, _solved(*tension)) if self.member in _PRESSED else along
 
     @property
     def _is_at_foot(self) -> bool:

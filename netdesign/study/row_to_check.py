@@ -86,11 +86,6 @@ def read_values(row: NetRow) -> dict[str, float]:
     }
 
 
-def is_layout_assumed(row: NetRow) -> bool:
-    """Whether some distance or tilt of the support is assumed."""
-    return any(row.find_assumed(key) is not None for key in _OF_LAYOUT)
-
-
 def _list_corners(row: NetRow, keys: Sequence[str]) -> Iterator[dict[str, float]]:
     """Values at all corners of what is assumed of some columns, by their keys."""
     ends = {}

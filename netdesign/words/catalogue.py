@@ -8,7 +8,7 @@ Of a list, what stands behind the colon joins its parts: ``{names: or }``; a sen
 that becomes part of another loses its full stop by ``{reason:clause}``; a day in ISO
 form is written as the language has it by ``{day:date}``; a force in kN or kN/m has
 three significant digits by ``{load:force}``, rounded up by ``{load:minimum}``; a count
-brings its noun along, ``{count:# row|# rows}``.
+brings its noun along, ``{count:# row|# rows}``. A gap ``{unit}`` has ``°`` for deg.
 A text that a language lacks is shown in English, whole with what it fills in. Reports,
 template and findings on the input have every language; `tests/words/test_catalogue.py`
 lists the files that are English only.
@@ -36,6 +36,7 @@ _MARKS = {
     language: str.maketrans({".": ",", ",": _NO_BREAK, "%": f"{_NO_BREAK}%"})
     for language in ("fr", "de")
 }
+_DEGREE, _POWER = re.compile(" deg(?!C)|deg"), re.compile("(?<=m)[234]")
 _DAY = re.compile(r"(\d{4})-(0[1-9]|1[0-2])-(\d\d)")
 _MONTHS = (
     *("janvier", "février", "mars", "avril", "mai", "juin", "juillet", "août"),
@@ -53,6 +54,17 @@ def set_marks(number: str, language: Language) -> str:
     """
     marks = _MARKS.get(language)
     return number.translate(marks) if marks else number
+
+
+def write_unit(unit: str) -> str:
+    """Unit as an engineer writes it, alone or behind a number.
+
+    Examples
+    --------
+    >>> write_unit("kg/m3"), write_unit("degC"), "25" + write_unit(" deg")
+    ('kg/m³', '°C', '25°')
+    """
+    return _POWER.sub(lambda power: "²³⁴"[int(power[0]) - 2], _DEGREE.sub("°", unit))
 
 
 def count_force_decimals(force: float) -> int:
@@ -130,6 +142,10 @@ def fill_text(key: str, arguments: Mapping[str, Any], language: Language) -> str
             value = arguments[name]
             if conversion:
                 value = _convert(value, conversion, language)
+            elif name == "unit" and isinstance(value, str):
+                value = write_unit(value)
+                if (before, value) == (" ", "°"):  # behind a number
+                    written[-1] = ""
             written.append(_fill(value, form or "", language))
     return "".join(written)
 

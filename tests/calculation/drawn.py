@@ -4,7 +4,6 @@ import math
 
 from netdesign.calculation.quantity import (
     Quantity,
-    above_zero,
     apply,
     at_value,
     find_dimension,
@@ -64,7 +63,6 @@ def operate(random, known, *, has_values):
     angle = random.choice([x for x in known if x.dimension == ANGLE])
     ways = [
         lambda: one + alike,
-        lambda: above_zero(one - alike),
         lambda: one - alike,
         lambda: largest(one, alike, one),
         lambda: smallest(one, alike),

@@ -9,10 +9,9 @@ from netdesign.calculation.quantity import leaf
 from netdesign.checks import forces as formulas
 from netdesign.checks.forces import MemberLoad, Support, place_end_support
 
-UNITS = {"E_s": "kN", "b": "m", "Δl": "m", "P": "kN", "β": "deg", "T_min": "kN"}
+UNITS = {"E_s": "kN", "b": "m", "Δl": "m", "P": "kN", "β": "deg"}
 UNITS |= {"T_r": "kN", "γ": "deg", "V_k": "kN", "R_k": "kN", "R_m": "kN", "R_min": "kN"}
 UNITS |= {"A": "kN", "Z": "kN", "E_k": "kN", "E_g0": "kN", "P_g": "kN"}
-UNITS |= {"T_min_g": "kN"}
 UNITS |= dict.fromkeys(("E_c", "E_p", "E_g", "E_p0"), "kN")
 
 
@@ -52,16 +51,12 @@ def test_a_guy_has_half_of_the_section_and_its_part_along_the_row():
     assert at_30.share.value == pytest.approx(1.0 / math.sqrt(3.0), rel=1e-14)
 
 
-def test_a_post_has_what_the_guys_do_not_hold_anyway():
-    """(S18): 1.4 (0.1 * 50 / tan 45 - 2) = 4.2 kN; of 20 kN at the least none."""
-
-    def load(least):
-        pull = q("P", 50.0, 10.0, 80.0)
-        given_ = (q("w", 1.4), q("k", 0.1), pull, q("β", 45.0), q("T_min", least))
-        return ends(formulas.load_post(*given_).added)
-
-    assert load(2.0) == pytest.approx((0.0, 4.2, 8.4), rel=1e-14)
-    assert load(20.0) == (0.0, 0.0, 0.0)
+def test_a_post_is_pressed_by_all_of_the_load_along_the_row():
+    """(S18): 1.4 * 0.1 * 50 / tan 45 = 7 kN."""
+    pull = q("P", 50.0, 10.0, 80.0)
+    given_ = (q("w", 1.4), q("k", 0.1), pull, q("β", 45.0))
+    found = ends(formulas.load_post(*given_).added)
+    assert found == pytest.approx((1.4, 7.0, 11.2), rel=1e-14)
 
 
 def test_a_force_inside_the_row_comes_to_its_support():
@@ -79,13 +74,11 @@ def test_a_force_inside_the_row_comes_to_its_support():
 
 
 def test_guideline_has_the_load_along_the_row_of_its_own_pull():
-    """(S18): 1.4 (0.1 * 20 / tan 60 - 1) kN, under a symbol of its own."""
-    along = (q("w", 1.4), q("k", 0.1), q("P_g", 20.0), q("β", 60.0), q("T_min_g", 1.0))
+    """(S18): 1.4 * 0.1 * 20 / tan 60 kN, under a symbol of its own."""
+    along = (q("w", 1.4), q("k", 0.1), q("P_g", 20.0), q("β", 60.0))
     load = formulas.load_post(*along, mark="_g")
     assert load.added.symbol == "A_g"
-    assert load.added.value == pytest.approx(
-        1.4 * (2.0 / math.sqrt(3.0) - 1.0), rel=1e-14
-    )
+    assert load.added.value == pytest.approx(2.8 / math.sqrt(3.0), rel=1e-14)
 
 
 def test_shared_anchor_holds_both_guys_in_space():

@@ -81,7 +81,7 @@ def test_unknown_columns_and_sheets_are_noted(book):
     [
         ("slope", "0,45O", "is not a number"),
         ("slope", "40 degs", "is not a number"),
-        ("slope", "40 gon", "is in gon, the unit of the column is deg"),
+        ("slope", "40 gon", "is in gon, the unit of the column is °"),
         ("slope", "1,234", "is ambiguous: 1.234 or 1234"),
         ("slope", True, "is a truth value, not a number"),
         ("slope", 9.9, "is out of range"),
@@ -144,14 +144,14 @@ def test_a_number_without_its_unit_among_others_is_refused(book, cell, place, ru
             "has no unit",
         ),
         ("slope ψ [mil]", "has an unknown unit"),
-        ("slope ψ [grad]", "is ambiguous: [deg] or [gon]"),
+        ("slope ψ [grad]", "is ambiguous: [°] or [gon]"),
     ],
 )
 def test_a_missing_or_unknown_unit_is_refused(book, heading, rule):
     book["Rows"][HEADINGS][1] = heading
     (finding,) = book.refuse()
     assert (finding.cell, str(finding.rule)) == ("B1", rule)
-    assert str(finding.accepted) == "[deg] or [%] or [rad] or [gon]"
+    assert str(finding.accepted) == "[°] or [%] or [rad] or [gon]"
 
 
 def test_two_units_for_one_column_are_refused(book):
@@ -187,7 +187,7 @@ def test_an_optional_heading_nearly_right_is_refused_not_defaulted(book, heading
         return
     (finding,) = book.refuse()
     assert str(finding.rule) == (
-        'is no known heading, but close to "post tilt δ [deg]", which is missing'
+        'is no known heading, but close to "post tilt δ [°]", which is missing'
     )
 
 
@@ -280,7 +280,7 @@ def test_a_cell_may_hold_both_ends(book, typed, unit, ends):
         ("250-450-500", "is not a number"),
         ("250/450", "is not a number"),
         ("1,250-1,450", "is ambiguous: 1.250 or 1250"),
-        ("250 - 450 °", "is in °, the unit of the column is kg/m3"),
+        ("250 - 450 °", "is in °, the unit of the column is kg/m³"),
         ("ca. 300", "is not a number"),
         (datetime.datetime(2026, 5, 10), "is a date or time, not a number"),
     ],

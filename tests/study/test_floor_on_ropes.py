@@ -25,7 +25,7 @@ def make_floor(foot, head):
     force = FloorForce(
         member=Member.FOOT_ANCHOR, force=foot, net=None, case=None, glide_factor=1.0
     )
-    span = HeadSpan(pull=head, least_tension=0.0, foot_least=0.0, foot_largest=0.0)
+    span = HeadSpan(pull=head, foot_least=0.0, foot_largest=0.0)
     return Floor(forces=(force,), head=span)
 
 

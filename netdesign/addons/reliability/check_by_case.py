@@ -14,18 +14,14 @@ from netdesign.envelope.ranges import Case, Ranges
 from netdesign.envelope.run import CaseResult
 from netdesign.site.model import NetRow
 from netdesign.structure.members import (
-    ROPE_OF,
     Member,
-    NetPart,
     RopeForce,
     name_in_panel,
 )
-from netdesign.study.anchor_pulls import is_shared
 from netdesign.study.case_records import LargestForce
 from netdesign.study.guideline_load import find_effects
 from netdesign.study.member_checks import MemberCheck
 from netdesign.study.member_force import (
-    PARTS,
     MemberForce,
     RowForces,
     find_force,
@@ -77,10 +73,9 @@ class CheckByCase:
         Utilisation for each N of the upper end of the solved force, that which is
         largest first; beside it the member's by the section or by the panel between
         posts: the larger utilisation counts [1/N].
-    added, rise : float
-        Utilisation by what is added to the largest force [-], and what that grows by
-        for each such force more. Another force brings it: it is taken to stay where
-        the member's falls, and to grow as the member's does.
+    added : float
+        Utilisation by what is added to the largest force [-]. Another force brings it:
+        it is taken to stay where the member's falls, and to grow as the member's does.
     governing : Case
         Case of the largest force.
     results : sequence of CaseResult
@@ -99,7 +94,6 @@ class CheckByCase:
     results: Sequence[CaseResult]
     widen: Callable[[Ranges], float] = lambda _: 1.0
     added: float = 0.0
-    rise: float = 0.0
     push: Push | None = None
 
     @property
@@ -136,10 +130,8 @@ class CheckByCase:
 
     def use(self, force: float) -> float:
         """Utilisation by a force of the member [-]."""
-        added = self.added
-        if self.rise and self.largest:
-            added += self.rise * max(0.0, force / self.largest - 1.0)
-        return self.scales[self.member] * force + added
+        growth = max(1.0, force / self.largest) if self.largest else 1.0
+        return self.scales[self.member] * force + self.added * growth
 
 
 def find_check_by_case(
@@ -219,20 +211,6 @@ def _find_added(force: MemberForce) -> float:
     return high_of(added) + high_of(across)
 
 
-def _find_rise(forces: RowForces, member: str) -> float:
-    """Growth of that where the pull on the head doubles, at most [kN]."""
-    held, row = forces.along_row, forces.row
-    alone = (Member.FOOT_ANCHOR, Member.POST_FOOT, NetPart.MESH, *ROPE_OF)
-    if held is None or member in (*alone, *row.layout.anchors_at_foot):
-        return 0.0
-    load, splay = held.share * held.pull_high_kN, math.radians(held.splay_deg)
-    if member not in PARTS:
-        return held.post_part * load / math.tan(splay)
-    part: float = getattr(held, PARTS[member])
-    guys = 2.0 if is_shared(row, member) else 1.0
-    return guys * part * load / math.sin(splay)
-
-
 def _compare_load(force: MemberForce, now: MemberForce) -> float:
     """Load of its support over that of another [-].
 
@@ -264,7 +242,6 @@ def _build_check(
         ranges=task.site.ranges,
         scales={followed: scales.pop(followed), **scales},
         added=use * _find_added(force),
-        rise=use * _find_rise(check.forces, check.resistance.member),
         governing=task.solved.extremes[followed].governing.case,
         results=results,
         widen=cache(partial(_find_load, forces, check, force)),

@@ -21,7 +21,7 @@ from netdesign.site.columns.office import (
     load_text,
     name_measure,
 )
-from netdesign.words.catalogue import Language, render, set_marks
+from netdesign.words.catalogue import Language, render, set_marks, write_unit
 from netdesign.words.message import say
 
 if TYPE_CHECKING:  # slow to import and only needed to write a workbook
@@ -33,10 +33,6 @@ Tables = Mapping[str, Sequence[Mapping[str, object]]]  # lines by table and key
 
 _YELLOW, _GREY, _INK = "#FFF2B3", "#7A7A7A", "#1F2A36"
 _PALE, _LINE = "#EEF1F4", "#C9CFD6"
-_SIGNS = {"deg": "°", "degC": "°C", "kg/m3": "kg/m³", "kN/m3": "kN/m³"} | {
-    f"cm{n}": f"cm{sign}" for n, sign in ((2, "²"), (3, "³"), (4, "⁴"))
-}
-
 
 _OPTIONS = {
     "strings_to_formulas": False,
@@ -177,7 +173,7 @@ def say_unit(form: Form, column: Column) -> str:
         first = load_file("office")["choices"][column.choice][0]
         measure = form.measures.get(key) or first
         return name_measure(column.choice, measure, form.language)
-    return _SIGNS.get(column.unit, column.unit) if column.field.units else ""
+    return write_unit(column.unit) if column.field.units else ""
 
 
 def write_about(

@@ -87,7 +87,7 @@ def test_floor_follows_a_moved_inclination():
     assert post != pytest.approx(list_floor(row, ranges)["post"], rel=1e-3)
 
 
-def build_check(added, rise):
+def build_check(added):
     """Post whose force is 1 N in its largest case."""
     case = Case(density=391.0, friction_angle=0.31, inclination=0.5)
     result = CaseResult(
@@ -102,20 +102,16 @@ def build_check(added, rise):
         governing=case,
         results=[result],
         added=added,
-        rise=rise,
     )
 
 
 def test_what_is_added_stays_below_the_largest_force_and_grows_beyond_it():
-    """As the post's: A = w (k P / tan beta - T), of which only the first part grows."""
-    first, held = 0.37, 0.15
-    check = build_check(first - held, first)
+    """As the post's: A = w k P / tan beta."""
+    check = build_check(0.37)
     for share in (0.0, 0.31, 1.0):
-        expected = 0.41 * share + first - held
-        assert check.use(share) == pytest.approx(expected, rel=1e-12)
+        assert check.use(share) == pytest.approx(0.41 * share + 0.37, rel=1e-12)
     for share in (1.07, 2.3):
-        expected = 0.41 * share + share * first - held
-        assert check.use(share) == pytest.approx(expected, rel=1e-12)
+        assert check.use(share) == pytest.approx(share * (0.41 + 0.37), rel=1e-12)
 
 
 def test_a_moved_thickness_keeps_the_glide_factor():

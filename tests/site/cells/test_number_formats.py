@@ -14,6 +14,7 @@ from netdesign.site.columns.fields import KNOWN_UNITS, convert_unit, normalise_u
 from netdesign.site.columns.office import load_plan
 from netdesign.site.reader import read_site
 from netdesign.site.readings import read_cell
+from netdesign.words.catalogue import write_unit
 from tests.each import each
 from tests.site.conftest import SOUND
 from tests.site.csv_folder import write_csv_folder
@@ -99,7 +100,7 @@ def test_a_unit_shown_is_the_heading_s_or_a_finding(book, name, column, field, s
 def test_hundredths_are_findings(book, name, column, field, number_format):
     (finding,) = book.refuse(set_format(name, column, number_format))
     assert str(finding.rule).startswith("is ambiguous: its format shows ")
-    assert field.unit in str(finding.rule)
+    assert write_unit(field.unit) in str(finding.rule)
 
 
 SLACK = "sag or slack of net [% slack]"
@@ -144,7 +145,7 @@ def test_a_percentage_typed_elsewhere_is_a_finding(tmp_path, name, column, field
         read_site(write_csv_folder(tmp_path / "site", book))
     (finding,) = (one for one in caught.value.findings if one.severity == "error")
     assert finding.text == text
-    assert str(finding.rule) == f"is in %, the unit of the column is {field.unit}"
+    assert str(finding.rule).endswith(f"of the column is {write_unit(field.unit)}")
 
 
 def test_a_percent_slope_below_percent_is_read_whatever_shows_it(book):

@@ -36,16 +36,16 @@ def test_nothing_is_asked_of_sound_tables():
 @each(
     "table, line, key, typed, rows, told",
     [
-        ("posts", 1, "second_moment", 3175, ["R2"], "HEB120: 317.5 cm4 (EN 10365)"),
-        ("posts", 1, "area", 340, ["R2"], "HEB120: 34.01 cm2"),
-        ("posts", 1, "section_modulus", 1441, ["R2"], "HEB120: 144.1 or 52.92 cm3"),
+        ("posts", 1, "second_moment", 3175, ["R2"], "HEB120: 317.5 cm⁴ (EN 10365)"),
+        ("posts", 1, "area", 340, ["R2"], "HEB120: 34.01 cm²"),
+        ("posts", 1, "section_modulus", 1441, ["R2"], "HEB120: 144.1 or 52.92 cm³"),
         ("posts", 1, "head_eccentricity", 62, ["R2"], "the 60 mm of an empty cell"),
         ("ropes", 0, "rope", 3500, ["R1", "R2"], "50 to 1500 kN"),
         ("anchor_types", 1, "tendon", 3000, ["R2"], "80 to 2500 kN"),
         ("rows", 0, "snow", 0.28, ["R1"], "0.8 to 6.5 m"),
         ("rows", 1, "upslope_length", 200, ["R2"], "4 to 100 m"),
-        ("project", 0, "friction_angle", "1.5 to 30", ["R1", "R2"], "5 to 45 deg"),
-        ("net_types", 0, "end_guy_angle", 3, ["R1"], "5 to 65 deg"),
+        ("project", 0, "friction_angle", "1.5 to 30", ["R1", "R2"], "5 to 45°"),
+        ("net_types", 0, "end_guy_angle", 3, ["R1"], "5 to 65°"),
         ("links", 1, "force", 6200, ["R1", "R2"], "20 to 2000 kN"),
     ],
 )

@@ -73,7 +73,6 @@ class Row:
         }
         held = self.study["held_sideways"]
         self.head = np.array([held[f"pull{end}_kN"] for end in ("_low", "", "_high")])
-        self.least = held["least_tension_kN"]
 
     def find_type(self, member, position):
         """Type of a member, by its id: at the row's end that of sheet Ends."""
@@ -414,8 +413,7 @@ class Row:
 
         def law(force, pull, push):
             along = (share * pull * width + besides) / math.tan(splay)
-            relieved = np.maximum(along - self.least * width, 0.0)
-            return force * width + weight * relieved + push
+            return force * width + weight * along + push
 
         return self.demand(member, law, pushed)
 
