@@ -239,9 +239,9 @@ def _place_values(
             continue
         net = rows[name]["net_type"].word
         for key, value in of_row.items():
-            place, sharing = ("rows", name, key), []
-            if key not in rows[name]:
-                place = ("net_types", net, key)
+            own, sharing = rows[name].get(key), list[str]()
+            place = ("rows", name, key) if own else ("net_types", net, key)
+            if net and (own is None or own.field.table == "net_types"):
                 sharing = [
                     row_id
                     for row_id, line in rows.items()

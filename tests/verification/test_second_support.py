@@ -9,6 +9,7 @@ from netdesign.calculation.quantity import leaf
 from netdesign.checks.forces import (
     MemberLoad,
     bring_to_support,
+    hold_one_way,
     place_end_support,
     press_one_way,
     pull_one_way,
@@ -126,11 +127,17 @@ def test_no_number_of_posts_is_worse_than_an_unknown_one(row, gap):
 
 
 UNITS = {"β": "deg", "b": "m", "Δl": "m"}
-UNITS |= dict.fromkeys(("E_s", "P", "T_r"), "kN")
+UNITS |= dict.fromkeys(("E_s", "P", "T_r", "D"), "kN")
 
 
 def leaves_of(**values):
     return [leaf(x, value, UNITS.get(x, "-"), "here") for x, value in values.items()]
+
+
+def test_a_guy_of_the_second_head_holds_its_part_of_the_ropes_pull():
+    """(P11): c D / sin beta = 0.4 * 38.37 / sin 30 = 30.696 kN."""
+    found = hold_one_way(*leaves_of(c=0.4, D=38.37, β=30.0))
+    assert found.value == pytest.approx(30.696, rel=1e-12)
 
 
 def test_the_second_post_is_pressed_by_rope_and_load_along_the_row():

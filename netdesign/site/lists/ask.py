@@ -35,7 +35,7 @@ from netdesign.site.columns.all_tables import (
 )
 from netdesign.site.columns.fields import KNOWN_UNITS, normalise, split_heading
 from netdesign.site.columns.office import load_columns, load_plan
-from netdesign.site.headings import find_own_unit
+from netdesign.site.headings import find_heading_unit, find_own_unit
 from netdesign.site.lists.join import (
     find_list_unit,
     find_units,
@@ -250,8 +250,13 @@ def guess_headings(
     for name, cell in name_headings(sheet, line):
         cells = (sheet.cell(row, cell.column) for row in rows)
         below = list(islice((cell for cell in cells if not cell.is_blank), _EXAMPLES))
-        unit = find_list_unit(cell, units)
-        heading = _guess(str(cell.value), unit, table.becomes, below, language)
+        unit, measure = find_list_unit(cell, units), find_heading_unit(cell)[1]
+        targets = [
+            target
+            for target in list_targets(table.becomes)
+            if target.has_unit(unit) and measure in ("", target.measure)
+        ]
+        heading = _guess(str(cell.value), unit, table.becomes, targets, below, language)
         shown = "; ".join(make_printable(cell.text) for cell in below)
         guesses.append(replace(heading, name=name, cells=shown))
     counts = Counter(
@@ -267,12 +272,16 @@ def guess_headings(
 
 
 def _guess(
-    text: str, unit: str, becomes: str, below: Sequence[Cell], language: Language
+    text: str,
+    unit: str,
+    becomes: str,
+    targets: Sequence[Target],
+    below: Sequence[Cell],
+    language: Language,
 ) -> HeadingGuess:
-    """First answer to a heading."""
+    """First answer to a heading, which may mean some columns by its unit."""
     if has_no_part(text):
         return HeadingGuess(answer=IGNORE, how=say("list_map.no_part"))
-    targets = [target for target in list_targets(becomes) if target.has_unit(unit)]
     ranked, alike = rank_targets(text, unit, targets)
     shown = (f"{target.title(language, unit)} {score:.0f}" for target, score in ranked)
     question = HeadingGuess(

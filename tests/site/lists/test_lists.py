@@ -236,3 +236,10 @@ def test_a_row_of_a_list_is_changed_by_its_own_id_and_our_keys(office, tmp_path)
             assert now.gap == was.gap
     known = {one.cell for one in site.what_if}
     assert len(known) == len(site.what_if) > 2
+
+
+def test_a_net_of_several_rows_is_not_changed_for_one_of_them(tmp_path):
+    built = read_answered(TYROL, tmp_path)
+    with pytest.raises(SiteDataError) as refused:
+        read_site(tmp_path / TYROL.file, change={built.rows[0].id: {"post_tilt": 13.7}})
+    assert [one.rule.key for one in refused.value.findings] == ["frames.shared"]
