@@ -36,7 +36,7 @@ _MARKS = {
     language: str.maketrans({".": ",", ",": _NO_BREAK, "%": f"{_NO_BREAK}%"})
     for language in ("fr", "de")
 }
-_DEGREE, _POWER = re.compile(" deg(?!C)|deg"), re.compile("(?<=m)[234]")
+_DEGREE, _POWER = re.compile(" deg(?!C)|deg"), re.compile(r"(?<=[a-z])\d")
 _DAY = re.compile(r"(\d{4})-(0[1-9]|1[0-2])-(\d\d)")
 _MONTHS = (
     *("janvier", "février", "mars", "avril", "mai", "juin", "juillet", "août"),
@@ -61,10 +61,13 @@ def write_unit(unit: str) -> str:
 
     Examples
     --------
-    >>> write_unit("kg/m3"), write_unit("degC"), "25" + write_unit(" deg")
-    ('kg/m³', '°C', '25°')
+    >>> write_unit("kg/m3"), write_unit("m/s2"), write_unit("1/100 m")
+    ('kg/m³', 'm/s²', '1/100 m')
+    >>> write_unit("degC"), "25" + write_unit(" deg")
+    ('°C', '25°')
     """
-    return _POWER.sub(lambda power: "²³⁴"[int(power[0]) - 2], _DEGREE.sub("°", unit))
+    powers = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+    return _POWER.sub(lambda found: powers[int(found[0])], _DEGREE.sub("°", unit))
 
 
 def count_force_decimals(force: float) -> int:
