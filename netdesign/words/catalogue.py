@@ -66,8 +66,7 @@ def write_unit(unit: str) -> str:
     >>> write_unit("degC"), "25" + write_unit(" deg")
     ('°C', '25°')
     """
-    powers = "⁰¹²³⁴⁵⁶⁷⁸⁹"
-    return _POWER.sub(lambda found: powers[int(found[0])], _DEGREE.sub("°", unit))
+    return _POWER.sub(lambda hit: "⁰¹²³⁴⁵⁶⁷⁸⁹"[int(hit[0])], _DEGREE.sub("°", unit))
 
 
 def count_force_decimals(force: float) -> int:
