@@ -8,7 +8,7 @@ Of a list, what stands behind the colon joins its parts: ``{names: or }``; a sen
 that becomes part of another loses its full stop by ``{reason:clause}``; a day in ISO
 form is written as the language has it by ``{day:date}``; a force in kN or kN/m has
 three significant digits by ``{load:force}``, rounded up by ``{load:minimum}``; a count
-brings its noun along, ``{count:# row|# rows}``. A gap ``{unit}`` is as `write_unit` has it.
+brings its noun along, ``{count:# row|# rows}``. `write_unit` fills ``{unit}``.
 A text that a language lacks is shown in English, whole with what it fills in. Reports,
 template and findings on the input have every language; `tests/words/test_catalogue.py`
 lists the files that are English only.
