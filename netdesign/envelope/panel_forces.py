@@ -6,8 +6,8 @@ errors. Names, equations and bands of the panel's forces: envelope/THEORY.md.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -171,7 +171,7 @@ POST_PULLS: tuple[str, ...] = (Member.POST_FOOT, name_in_panel(Member.POST_FOOT)
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PanelForces:
-    """Panels of a case, what a bay of each brings to a support, and forces there.
+    """Panels of a case, what a bay of each brings to a support, and their ropes.
 
     Attributes
     ----------
@@ -179,15 +179,13 @@ class PanelForces:
         n of them; several where the row's panel is assumed: the worst counts.
     pulls : Pulls
         Their mean pulls on foot and head, between two equal panels.
-    bands : dict of str to ndarray, shape (3, n)
-        Least, own and largest force by ``PANEL_QUANTITIES`` on one support [N]; none
-        before a support holds them. The foot anchor's is that of the more loaded one,
-        beside a post or in mid-panel.
+    ropes : dict of str to ndarray, shape (3, n)
+        Least, own and largest force by ``RopeForce`` [N].
     """
 
     solved: SolvedPanels
     pulls: Pulls
-    bands: Mapping[str, Floats] = field(default_factory=dict)
+    ropes: dict[str, Floats]
 
     @property
     def width(self) -> float:
@@ -224,36 +222,18 @@ class PanelForces:
         return solution
 
     def read_members(self, held: HeldPulls) -> dict[str, Floats]:
-        """Bands (supports, 3, n) of members that hold a section's pulls, then these."""
+        """Bands (supports, 3, n) of members that hold a section's pulls, then these.
+
+        The foot anchor's is that of the more loaded one, beside a post or in mid-panel.
+        """
         bands = {name_in_panel(m): band[..., 1:] for m, band in held.bands.items()}
         at_foot, mids = bands[_AT_FOOT], np.hypot(*self.solved.mid_foot.T)
         in_mid = _spread(mids, self.width * self.error)
         bands[_AT_FOOT] = np.where(mids > at_foot[:, 1:2], in_mid, at_foot)
         return bands
 
-    def read_ropes(self) -> dict[str, Floats]:
-        """Bands (3, n) of both ropes: they grow at most as what pulls on them."""
-        on_lower = np.hypot(*self.feet.T) / self.width
-        on_upper = np.hypot(*self.pulls.ends[:, 2:].T)
-        solved, shares = self.solved, (self.error / on_lower, self.error / on_upper)
-        bands = {
-            name: _spread(forces[:, rope], shares[rope] * forces[:, rope])
-            for rope, names in enumerate(_ROPES)
-            for name, forces in zip(names, (solved.along, solved.tension), strict=True)
-        }
-        return {name: bands[name] for name in RopeForce}
-
-    def held_by(self, held: HeldPulls) -> PanelForces:
-        """The panels on the first of the supports that hold them."""
-        members = {name: band[0] for name, band in self.read_members(held).items()}
-        return replace(self, bands=members | self.read_ropes())
-
 
 _AT_FOOT = name_in_panel(Member.FOOT_ANCHOR)
-_ROPES = (
-    (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION),
-    (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION),
-)
 
 
 def resolve_panels(
@@ -274,8 +254,8 @@ def resolve_panels(
     Returns
     -------
     PanelForces or FailedPanel
-        Before any support holds them; or the first failure of any panel. Its outcome is
-        ``out_of_validity`` also of a history.
+        Or the first failure of any panel. Its outcome is ``out_of_validity`` also of a
+        history.
 
     Verified by
     -----------
@@ -288,7 +268,8 @@ def resolve_panels(
     solved = _solve_panels(strip, panels)
     if isinstance(solved, FailedPanel):
         return solved
-    return PanelForces(solved=solved, pulls=_find_pulls(solved, state))
+    pulls = _find_pulls(solved, state)
+    return PanelForces(solved=solved, pulls=pulls, ropes=_read_ropes(solved, pulls))
 
 
 # Panels that are not built like this: their pressure on the ground would be unknown.
@@ -350,3 +331,14 @@ def _find_pulls(solved: SolvedPanels, state: SolvedState) -> Pulls:
     errors = max(state.foot.error, state.head.error) + np.array(shares) * load
     ends = np.concatenate([solved.foot, solved.head], axis=1) / width
     return Pulls(ends, np.repeat(errors[:, None], 4, axis=1))
+
+
+def _read_ropes(solved: SolvedPanels, pulls: Pulls) -> dict[str, Floats]:
+    """Bands (3, n) of both ropes: they grow at most as what pulls on them."""
+    width, error = solved.panels[0].post_spacing, pulls.errors[:, 0]
+    on_lower = np.hypot(*(solved.foot + solved.mid_foot).T) / width
+    on_upper = np.hypot(*pulls.ends[:, 2:].T)
+    shares = np.stack([error / on_lower, error / on_upper])
+    forces = np.stack([solved.along.T, solved.tension.T])
+    bands = _spread(forces, shares * forces).reshape(len(RopeForce), 3, -1)
+    return dict(zip(RopeForce, bands, strict=True))

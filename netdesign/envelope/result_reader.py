@@ -32,7 +32,7 @@ from netdesign.numerics.arrays import Floats, Mask
 from netdesign.search import surrogate
 from netdesign.search.maxima import Maxima, SearchSettings, Watched
 from netdesign.search.surrogate import fit_surrogate, supports_model
-from netdesign.search.upper_bound import NOISE, bound_quantities, build_lattice
+from netdesign.search.upper_bound import NOISE, Lattice, bound_quantities
 from netdesign.structure.head import share_between_guys
 from netdesign.structure.layout import SupportLayout
 from netdesign.structure.members import GUYS, Member, RopeForce, name_in_panel
@@ -91,7 +91,7 @@ def bound_lifted(
         best=np.maximum(values.max(axis=0), 0.0),
         tolerance=tolerance,
         deciding=(),
-        lattice=build_lattice(places.shape[1]),
+        lattice=Lattice(places.shape[1]),
         inflations=(),
     )
     if not bound(watched=(0,)).upper[0] > 0.0:

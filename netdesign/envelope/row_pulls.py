@@ -145,7 +145,7 @@ def find_least_ropes(results: Sequence[CaseResult]) -> dict[RopeForce, float]:
     if not panels:
         return {}
     lows = {
-        rope: np.array([one.bands[rope][0] for one in panels]) for rope in RopeForce
+        rope: np.array([one.ropes[rope][0] for one in panels]) for rope in RopeForce
     }
     return {rope: float(low.max(axis=0).min()) for rope, low in lows.items()}
 
@@ -213,10 +213,10 @@ def _raise_rope(
     Where a panel's force is largest, it has a share of the largest of all panels:
     envelope/THEORY.md, (E3).
     """
-    sizes = np.array([panel.bands[rope][1] for panel in cases])  # by case and panel
+    sizes = np.array([panel.ropes[rope][1] for panel in cases])  # by case and panel
     largest = sizes.max(axis=1)[:, None]
     is_near = largest >= LARGE * sizes.max(axis=0)
     shares = np.where(is_near, sizes / largest, 0.0).max(axis=0)
-    of_all = max(float(panel.bands[rope][1].max()) for panel in every)
+    of_all = max(float(panel.ropes[rope][1].max()) for panel in every)
     raised = float((factors * shares).max())
     return raised * (float(largest.max()) / of_all if of_all else 1.0)

@@ -255,7 +255,7 @@ def _resolve_support(task: CaseTask, state: SolvedState) -> CaseResult:
         member_forces=forces.largest,
         anchors=anchors,
         solution=state,
-        panel=panel.held_by(held) if panel else found,
+        panel=found,
         of_layouts=forces if len(task.layouts) > 1 else None,
     )
 
@@ -283,11 +283,11 @@ def _list_forces(
     bands = {str(member): band[..., 0] for member, band in held.bands.items()}
     bands[NetPart.MESH] = np.array([mesh.low, mesh.value, mesh.high])
     if panel:
-        of_panels = panel.read_members(held) | panel.read_ropes()
+        of_panels = panel.read_members(held) | panel.ropes
         bands |= {name: band.max(axis=-1) for name, band in of_panels.items()}
-    shape = (len(held.is_held), 3)
-    each = [np.broadcast_to(band, shape) for band in bands.values()]
-    stacked = np.stack(each, axis=1)
+    stacked = np.empty((len(held.is_held), len(bands), 3))
+    for place, band in enumerate(bands.values()):
+        stacked[:, place] = band
     return LayoutForces(layouts=layouts, names=tuple(bands), bands=stacked)
 
 

@@ -28,8 +28,8 @@ from netdesign.search.upper_bound import (
     NOISE,
     Bounds,
     Inflation,
+    Lattice,
     bound_quantities,
-    build_lattice,
     choose_questions,
     list_first_design,
 )
@@ -167,7 +167,7 @@ class MaximaSearch:
         self.values: list[Floats] = []
         self.doubts: list[Floats] = []
         self.result: Maxima | None = None
-        self._lattice = build_lattice(dimension)
+        self._lattice = Lattice(dimension)
         self._asked = [*list_first_design(dimension)]
         self._axis_weights: Floats | None = None  # by the first design
         self._model: Surrogate | None = None
@@ -285,7 +285,7 @@ class MaximaSearch:
 
         They do so too where no case is left that could test them, unless cases ran out.
         """
-        if not self._lattice.shape[1]:  # nothing hides beside a single case
+        if not self._lattice.places.shape[1]:  # nothing hides beside a single case
             return True
         is_closed = self._bounds is not None and self._bounds.is_closed
         has_room = len(self.points) < self.settings.max_cases

@@ -9,8 +9,8 @@ there. Theory: search/THEORY.md, eq. (M1) to (M5a).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import combinations_with_replacement, product
+from dataclasses import dataclass, replace
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -68,24 +68,38 @@ class Surrogate:
     spacings: Floats
     axis_weights: Floats
     doubts: Floats
+    _everywhere: Floats  # score that counts at every place, shape (quantities,)
+    _least_near: Floats  # correlation from which on a case's own scores count, (n,)
     _inverse: Floats
     _trend_of_cases: Floats
     _trend_covariance: Floats
     _trend_weights: Floats
     _weights: Floats
 
-    def predict(
-        self, at: Floats, quantities: Sequence[int] | None = None
-    ) -> Prediction:
+    def select(self, quantities: Sequence[int]) -> Surrogate:
+        """The model of some quantities, in the order given."""
+        chosen = list(quantities)
+        scores = self.scores[:, chosen]
+        everywhere, least_near = _find_far(scores, self.spacings)
+        return replace(
+            self,
+            held_out=self.held_out[:, chosen],
+            scores=scores,
+            doubts=self.doubts[:, chosen],
+            _everywhere=everywhere,
+            _least_near=least_near,
+            _trend_weights=self._trend_weights[:, chosen],
+            _weights=self._weights[:, chosen],
+        )
+
+    def predict(self, at: Floats, near: Floats | None = None) -> Prediction:
         """Mean and standard error at places of shape (n, dimension).
 
-        They are those of some quantities, in the order given, or of all.
+        What `correlate` gives of the places may be given, too.
         """
-        chosen = slice(None) if quantities is None else list(quantities)
-        distances = self._measure(at)
-        near = _correlate(distances)
+        near = self.correlate(at) if near is None else near
         trend = _build_trend(at)
-        mean = trend @ self._trend_weights[:, chosen] + near @ self._weights[:, chosen]
+        mean = trend @ self._trend_weights + near @ self._weights
         carried = near @ self._inverse
         lack = trend - near @ self._trend_of_cases.T
         in_trend = lack @ self._trend_covariance
@@ -95,45 +109,44 @@ class Surrogate:
             + np.einsum("ij,ij->i", in_trend, lack)
         )
         spread = np.sqrt(np.maximum(variance, 0.0))
-        scale = self._fade(distances, self.scores[:, chosen])
-        sway = self._find_sway(carried, in_trend, self.doubts[:, chosen])
-        return Prediction(mean=mean, standard_error=scale * spread[:, None], sway=sway)
+        return Prediction(
+            mean=mean,
+            standard_error=self._fade(at, near) * spread[:, None],
+            sway=self._find_sway(carried, in_trend),
+        )
 
-    def _measure(self, at: Floats) -> Floats:
-        """Distances of places from the cases, each axis by its weight."""
+    def correlate(self, at: Floats, first: int = 0) -> Floats:
+        """Correlation of places with the cases from a first one on [-]."""
         weights = self.axis_weights
-        return measure_distances(at * weights, self.places * weights)
+        return _correlate(
+            measure_distances(at * weights, self.places[first:] * weights)
+        )
 
-    def _find_sway(self, carried: Floats, in_trend: Floats, doubts: Floats) -> Floats:
+    def _find_sway(self, carried: Floats, in_trend: Floats) -> Floats:
         """Most by which errors of the values move the mean, eq. (M3a)."""
-        if not doubts.any():
-            return np.zeros((len(carried), doubts.shape[1]))
-        shares = carried + in_trend @ self._trend_of_cases
-        result: Floats = np.abs(shares, out=shares) @ doubts
+        rough = np.flatnonzero(self.doubts.any(axis=1))
+        shares = carried[:, rough] + in_trend @ self._trend_of_cases[:, rough]
+        result: Floats = np.abs(shares) @ self.doubts[rough]
         return result
 
-    def _fade(self, distances: Floats, scores: Floats) -> Floats:
+    def _fade(self, at: Floats, near: Floats) -> Floats:
         """Largest held-out score around each place, eq. (M5)."""
-        far = FAR_SHARE * np.minimum(1.0, self.spacings / REACH) ** _ROUGHNESS
-        everywhere = np.max(scores * far[:, None], axis=0)
-        over = (scores / np.maximum(everywhere, np.finfo(float).tiny)).max(axis=1)
-        # further away no score of a case says more than what counts everywhere
-        furthest = REACH * np.sqrt(np.log(np.maximum(over, 1.0)))
-        place, case = np.nonzero(distances < furthest)
-        apart = distances[place, case]
+        place, case = np.nonzero(near > self._least_near)
+        off = (at[place] - self.places[case]) * self.axis_weights
+        apart = np.sqrt(np.einsum("ij,ij->i", off, off))
         with np.errstate(divide="ignore"):
             rough = np.minimum(1.0, self.spacings[case] / apart) ** _ROUGHNESS
-        near = rough * np.exp(-((apart / REACH) ** 2))
-        scale = np.tile(everywhere, (len(distances), 1))
+        share = rough * np.exp(-((apart / REACH) ** 2))
+        scale = np.tile(self._everywhere, (len(at), 1))
         firsts = np.flatnonzero(np.diff(place, prepend=-1))
         if len(firsts):
-            largest = np.maximum.reduceat(near[:, None] * scores[case], firsts)
+            largest = np.maximum.reduceat(share[:, None] * self.scores[case], firsts)
             scale[place[firsts]] = np.maximum(scale[place[firsts]], largest)
         return scale
 
     def evaluate(self, at: Floats, *quantities: int) -> list[Floats]:
         """Mean of some quantities at places of shape (n, dimension), n values each."""
-        trend, near = _build_trend(at), _correlate(self._measure(at))
+        trend, near = _build_trend(at), self.correlate(at)
         return [
             trend @ self._trend_weights[:, quantity] + near @ self._weights[:, quantity]
             for quantity in quantities
@@ -187,13 +200,18 @@ def fit_surrogate(
     diagonal = np.diag(inverse - carried @ covariance @ carried.T)
     diagonal = np.maximum(diagonal, 1e-12)[:, None]
     held_out = case_weights / diagonal
+    scores = np.maximum(np.abs(held_out) - noise, 0.0) * np.sqrt(diagonal)
+    spacings = _find_spacings(distances, is_dense=is_dense)
+    everywhere, least_near = _find_far(scores, spacings)
     return Surrogate(
         places=places,
         held_out=held_out,
-        scores=np.maximum(np.abs(held_out) - noise, 0.0) * np.sqrt(diagonal),
-        spacings=_find_spacings(distances, is_dense=is_dense),
+        scores=scores,
+        spacings=spacings,
         axis_weights=weights,
         doubts=np.zeros_like(values) if doubts is None else doubts,
+        _everywhere=everywhere,
+        _least_near=least_near,
         _inverse=inverse,
         _trend_of_cases=carried.T,
         _trend_covariance=covariance,
@@ -209,6 +227,15 @@ def _find_spacings(distances: Floats, *, is_dense: bool) -> Floats:
     to_others = distances + np.diag(np.full(len(distances), np.inf))
     result: Floats = to_others.min(axis=1)
     return result
+
+
+def _find_far(scores: Floats, spacings: Floats) -> tuple[Floats, Floats]:
+    """Scores that count everywhere; correlation from which on a case's own are more."""
+    far = FAR_SHARE * np.minimum(1.0, spacings / REACH) ** _ROUGHNESS
+    everywhere = np.max(scores * far[:, None], axis=0)
+    over = (scores / np.maximum(everywhere, np.finfo(float).tiny)).max(axis=1)
+    furthest = REACH * np.sqrt(np.log(np.maximum(over, 1.0)))
+    return everywhere, _correlate(furthest)
 
 
 def weigh_axes(places: Floats, values: Floats, tolerance: Floats) -> Floats:
@@ -268,9 +295,9 @@ def _invert(matrix: Floats) -> Floats:
 def _build_trend(at: Floats) -> Floats:
     """Constant, linear and quadratic terms, shape (n, terms)."""
     centred = 2.0 * at - 1.0
-    pairs = combinations_with_replacement(range(at.shape[1]), 2)
-    products = [centred[:, i] * centred[:, j] for i, j in pairs]
-    return np.column_stack([np.ones(len(at)), centred, *products])
+    first, second = np.triu_indices(at.shape[1])
+    products = centred[:, first] * centred[:, second]
+    return np.concatenate([np.ones((len(at), 1)), centred, products], axis=1)
 
 
 def measure_distances(a: Floats, b: Floats) -> Floats:

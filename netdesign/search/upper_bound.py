@@ -10,7 +10,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product, repeat
+from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -38,6 +39,14 @@ class Inflation:
     ratio: Floats  # error over what was allowed, shape (quantities,)
 
 
+class Wanted(NamedTuple):
+    """Points that may be asked for, n of them, those of the largest excess first."""
+
+    excess: Floats  # of the bound over the least that matters, over the tolerance
+    points: Floats  # shape (n, dimension)
+    quantities: Ints  # whose bound it is
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Bounds:
     """Values that the model allows, and their places."""
@@ -48,7 +57,7 @@ class Bounds:
     watched: tuple[int, ...]
     deciding: tuple[int, ...]  # those of them that have to be close
     summits: tuple[Point, ...]  # best values of the deciding quantities
-    wanted: tuple[tuple[float, Point, int], ...]  # excess over tolerance, best first
+    wanted: Wanted
 
     @property
     def open(self) -> tuple[int, ...]:
@@ -62,10 +71,29 @@ class Bounds:
         return not self.open
 
 
-def build_lattice(dimension: int) -> Floats:
-    """Places at which a bound is looked at first, shape (n, dimension)."""
-    axis = np.linspace(0.0, 1.0, _LATTICE[dimension])
-    return np.array(list(product(axis, repeat=dimension)))
+class Lattice:
+    """Places at which a bound is looked at first, and what is known of them.
+
+    Attributes
+    ----------
+    places : ndarray, shape (n, dimension)
+        Even shares of each range [-].
+    step : float
+        Between two of them along an axis [-].
+    """
+
+    def __init__(self, dimension: int) -> None:
+        """Lay the places out."""
+        count = _LATTICE[dimension]
+        self.places = _list_products(np.linspace(0.0, 1.0, count), dimension)
+        self.step = 1.0 / max(1, count - 1)
+        self._near: Floats = np.empty((len(self.places), 0))
+
+    def correlate(self, model: Surrogate) -> Floats:
+        """Correlation with a model's cases: those of the last model, and new ones."""
+        new = model.correlate(self.places, self._near.shape[1])
+        self._near = np.concatenate([self._near, new], axis=1)
+        return self._near
 
 
 def bound_quantities(
@@ -76,7 +104,7 @@ def bound_quantities(
     tolerance: Floats,
     watched: Sequence[int],
     deciding: Sequence[int],
-    lattice: Floats,
+    lattice: Lattice,
     inflations: Sequence[Inflation],
 ) -> Bounds:
     """Largest mean plus ``CERTAINTY`` standard errors, and the places near it.
@@ -93,8 +121,8 @@ def bound_quantities(
         Quantities that are bounded; the others have no bound.
     deciding : sequence of int
         Those of them whose bounds have to be close.
-    lattice : ndarray, shape (m, dimension)
-        Of `build_lattice`.
+    lattice : Lattice
+        Of the same dimension, for models of the same cases and more.
     inflations : sequence of Inflation
         Around the cases for which the bound did not hold.
 
@@ -105,26 +133,26 @@ def bound_quantities(
     """
     asked = list(watched)
     around = np.array([model.places[np.argmax(column)] for column in values.T])
-    distinct, every = _list_places(lattice, around)
-    looked_at = distinct[every]
+    # at the walls of the box many places around the best cases are one
+    distinct, every = find_distinct(_surround(np.unique(around, axis=0)))
+    looked_at = np.concatenate([lattice.places, distinct[every]])
 
     reach = _build_reach(model, asked, tolerance, inflations)
-    allowed = reach(distinct)[every]
+    of_lattice = reach(lattice.places, lattice.correlate(model))
+    allowed = np.concatenate([of_lattice, reach(distinct)[every]])
     upper = allowed.max(axis=0)
     order = {q: _list_highest(allowed[:, q]) for q in asked}
     starts = {q: looked_at[places[:_STARTS]] for q, places in order.items()}
-    climbed = _climb(starts, reach, 1.0 / (_LATTICE[lattice.shape[1]] - 1))
-    wanted: list[tuple[float, Point, int]] = []
+    climbed = _climb(starts, reach, lattice.step)
+    wanted = []
     for quantity, (tops, heights) in climbed.items():
         upper[quantity] = max(upper[quantity], heights.max())
-        if quantity not in deciding:
-            continue
         places = np.concatenate([tops, looked_at[order[quantity]]])
         reached = np.concatenate([heights, allowed[order[quantity], quantity]])
         excess = (reached - best[quantity]) / tolerance[quantity] - 1.0
-        wanted += zip(excess.tolist(), _settle(places), repeat(quantity), strict=False)
-    wanted.sort(key=lambda entry: (-entry[0], entry[1], entry[2]))
-    summits = _settle(around)
+        if quantity in deciding:
+            wanted.append((excess, _settle(places), np.full(len(places), quantity)))
+    summits = [tuple(place) for place in _settle(around).tolist()]
     return Bounds(
         best=best,
         tolerance=tolerance,
@@ -132,8 +160,16 @@ def bound_quantities(
         watched=tuple(asked),
         deciding=tuple(deciding),
         summits=tuple(summits[q] for q in deciding if values[:, q].max() >= best[q]),
-        wanted=tuple(wanted),
+        wanted=_sort(wanted, lattice.places.shape[1]),
     )
+
+
+def _sort(wanted: Sequence[tuple[Floats, Floats, Ints]], dimension: int) -> Wanted:
+    """All points that may be asked for; of equal excess the least point first."""
+    none = (np.empty(0), np.empty((0, dimension)), np.empty(0, dtype=np.intp))
+    excess, points, quantities = map(np.concatenate, zip(none, *wanted, strict=True))
+    order = np.lexsort((quantities, *points.T[::-1], -excess))
+    return Wanted(excess[order], points[order], quantities[order])
 
 
 def _list_highest(values: Floats) -> Ints:
@@ -149,12 +185,15 @@ def _build_reach(
     asked: list[int],
     tolerance: Floats,
     inflations: Sequence[Inflation],
-) -> Callable[[Floats], Floats]:
+) -> Callable[..., Floats]:
     """Places to what each quantity may reach there; infinity of one not asked for."""
+    of_asked = model.select(asked)
+    around = np.array([one.place for one in inflations])
+    wider = np.array([one.ratio[asked] - 1.0 for one in inflations])
 
-    def reach(at: Floats) -> Floats:
-        mean, standard_error, sway = model.predict(at, asked)
-        factor = _inflate(at, inflations, asked)
+    def reach(at: Floats, near: Floats | None = None) -> Floats:
+        mean, standard_error, sway = of_asked.predict(at, near)
+        factor = _inflate(at, around, wider) if inflations else 1.0
         result: Floats = np.full((len(at), len(tolerance)), np.inf)
         likely = mean + CERTAINTY * factor * standard_error
         result[:, asked] = likely + sway + NOISE * tolerance[asked]
@@ -172,38 +211,35 @@ def _close_above(upper: Floats, best: Floats, margin: Floats) -> Floats:
     return np.where(is_force, np.maximum(upper, best) + margin, 0.0)
 
 
-def _settle(places: Floats) -> list[Point]:
+def _settle(places: Floats) -> Floats:
     """Nearest points whose coordinates are multiples of the grain."""
-    return [tuple(place) for place in (np.round(places / GRAIN) * GRAIN).tolist()]
-
-
-def _inflate(at: Floats, inflations: Sequence[Inflation], asked: list[int]) -> Floats:
-    """Factor of the standard error of some quantities at places, (m, asked) [-]."""
-    factor = np.ones((len(at), len(asked)))
-    for inflation in inflations:
-        distance = np.linalg.norm(at - inflation.place, axis=1)
-        share = np.exp(-((distance / REACH) ** 2))[:, None]
-        wider = 1.0 + share * (inflation.ratio[asked] - 1.0)
-        np.maximum(factor, wider, out=factor)
-    return factor
-
-
-def _list_places(lattice: Floats, around: Floats) -> tuple[Floats, Ints]:
-    """Lattice and surroundings of some places; which of these each looked at is.
-
-    At the walls of the box many are one.
-    """
-    nearby = np.concatenate([*map(_surround, np.unique(around, axis=0))])
-    distinct, number = find_distinct(nearby)
-    every = np.append(np.arange(len(lattice)), len(lattice) + number)
-    return np.concatenate([lattice, distinct]), every
-
-
-def _surround(place: Floats) -> Floats:
-    """Finer lattice around the best case found."""
-    offsets = np.array(list(product((-0.0625, 0.0, 0.0625), repeat=len(place))))
-    result: Floats = np.clip(place + offsets, 0.0, 1.0)
+    result: Floats = np.round(places / GRAIN) * GRAIN
     return result
+
+
+def _inflate(at: Floats, around: Floats, wider: Floats) -> Floats:
+    """Factor of the standard errors at places, by what is added around others [-]."""
+    shares = np.exp(-((measure_distances(around, at) / REACH) ** 2))
+    added = np.zeros((wider.shape[1], len(at)))
+    for share, ratio in zip(shares, wider, strict=True):
+        np.maximum(added, ratio[:, None] * share, out=added)
+    return 1.0 + added.T
+
+
+def _list_products(axis: Floats, dimension: int) -> Floats:
+    """All points with these coordinates, (n, dimension): the last one varies first."""
+    places = np.indices((axis.size,) * dimension).reshape(
+        dimension, axis.size**dimension
+    )
+    result: Floats = axis[places.T]
+    return result
+
+
+def _surround(places: Floats) -> Floats:
+    """Finer lattice around each of the best cases found."""
+    offsets = _list_products(np.array([-0.0625, 0.0, 0.0625]), places.shape[1])
+    around = np.clip(places[:, None] + offsets, 0.0, 1.0)
+    return np.asarray(around.reshape(-1, places.shape[1]))
 
 
 def _climb(
@@ -303,18 +339,16 @@ def _pick(
     apart: float,
 ) -> list[Point]:
     """Wanted cases above an excess, well apart from each other and from known ones."""
-    asked = [
-        want for want in bounds.wanted if want[2] in quantities and want[0] > least
-    ]
-    if not asked:
+    wanted = bounds.wanted
+    is_asked = np.isin(wanted.quantities, quantities) & (wanted.excess > least)
+    if not is_asked.any():
         return []
-    at, sampled = np.array([point for _, point, _ in asked]), np.array(points)
-    is_free = measure_distances(at, sampled).min(axis=1) >= apart * (1.0 - 1e-9)
+    at = wanted.points[is_asked]
+    is_free = measure_distances(at, np.array(points)).min(axis=1) >= apart * (1 - 1e-9)
     chosen: list[Point] = []
-    for k in np.flatnonzero(is_free).tolist():
+    for point in map(tuple, at[is_free].tolist()):
         if len(chosen) >= most:
             break
-        _, point, _ = asked[k]
         if all(math.dist(point, other) > _APART for other in chosen):
             chosen.append(point)
     return chosen

@@ -9,7 +9,7 @@ import pytest
 
 from netdesign.cable.net import Net
 from netdesign.coupling.scene import Scene
-from netdesign.envelope.panel_forces import PanelForces
+from netdesign.envelope.panel_forces import PANEL_QUANTITIES, PanelForces
 from netdesign.envelope.ranges import Case
 from netdesign.envelope.run import build_task, run_cases
 from netdesign.panel.inputs import (
@@ -94,19 +94,19 @@ def assume_all(spacing, mid):
     )
 
 
-def take_largest(panels):
-    """Largest force of each member on any of some panels."""
-    return {name: float(band[1].max()) for name, band in panels.bands.items()}
+def take_largest(result):
+    """Largest force of each member on any of a case's panels."""
+    return {name: result.member_forces[name].value for name in PANEL_QUANTITIES}
 
 
 def find_excess(seed, mid):
     """Largest force of any panel over that of those that are assumed, by member."""
-    solve, spacing = draw_solver(seed)
+    solve, _, spacing = draw_case(seed)
     worst = take_largest(solve(assume_all(spacing, mid)))
     found = dict.fromkeys(worst, 0.0)
     for panel in list_ends(spacing, mid):
         one = solve([panel])
-        if isinstance(one, PanelForces):
+        if isinstance(one.panel, PanelForces):
             for name, force in take_largest(one).items():
                 found[name] = max(found[name], force / max(worst[name], 10.0))
     return found

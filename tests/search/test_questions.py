@@ -4,9 +4,26 @@ from dataclasses import replace
 
 import numpy as np
 
-from netdesign.search.upper_bound import Bounds, choose_questions, list_first_design
+from netdesign.search.upper_bound import (
+    Bounds,
+    Wanted,
+    choose_questions,
+    list_first_design,
+)
 
-# Of two watched quantities, in percent of a tolerance above what is allowed.
+
+def list_wanted(*entries):
+    """Points that may be asked for: excess, point, quantity of each."""
+    return Wanted(*map(np.array, zip(*entries, strict=True)))
+
+
+# Of two watched quantities, in tolerances above what is allowed.
+WANTED = (
+    (9.0, (0.25, 0.25), 0),
+    (8.1, (0.3125, 0.25), 0),
+    (3.3, (0.75, 0.5), 0),
+    (-0.4, (0.75, 1.0), 1),
+)
 OPEN = Bounds(
     best=np.array([7.3, 2.9]),
     tolerance=np.array([0.04, 0.04]),
@@ -14,12 +31,7 @@ OPEN = Bounds(
     watched=(0, 1),
     deciding=(0, 1),
     summits=((0.0, 0.4375), (0.5, 1.0)),
-    wanted=(
-        (9.0, (0.25, 0.25), 0),
-        (8.1, (0.3125, 0.25), 0),
-        (3.3, (0.75, 0.5), 0),
-        (-0.4, (0.75, 1.0), 1),
-    ),
+    wanted=list_wanted(*WANTED),
 )
 CLOSED = replace(OPEN, upper=np.array([7.33, 2.93]))
 
@@ -44,7 +56,7 @@ def test_where_a_quantity_could_exceed_is_asked_first_and_apart():
 
 def test_where_all_that_could_exceed_is_known_the_like_of_it_is_asked():
     known = [(0.25, 0.25), (0.3125, 0.25), (0.75, 0.5)]
-    negative = replace(OPEN, wanted=(*OPEN.wanted, (-0.6, (0.75, 0.9375), 0)))
+    negative = replace(OPEN, wanted=list_wanted(*WANTED, (-0.6, (0.75, 0.9375), 0)))
     assert choose_questions(negative, known, batch=6, room=90) == [(0.75, 0.9375)]
 
 

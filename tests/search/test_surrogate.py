@@ -82,7 +82,7 @@ def test_the_sway_is_the_sum_of_what_each_doubt_does_to_the_mean():
         values[place] += doubts[place]
         moved += np.abs(fit_surrogate(PLACES, values).predict(elsewhere).mean - mean)
     assert moved.max() > 0.05
-    assert model.predict(elsewhere, (1, 0)).sway == pytest.approx(moved[:, ::-1])
+    assert model.select((1, 0)).predict(elsewhere).sway == pytest.approx(moved[:, ::-1])
 
 
 @pytest.mark.parametrize("dimension", [1, 2, 3, 5])

@@ -35,7 +35,7 @@ def measure_foot(solution):
 
 def take_largest(results, rope):
     """Largest force of a rope over all cases and panels [N]."""
-    return max(panel.bands[rope][1].max() for panel in list_panels(results))
+    return max(panel.ropes[rope][1].max() for panel in list_panels(results))
 
 
 def take_alone(result, place):
@@ -47,7 +47,7 @@ def take_alone(result, place):
     alone = PanelForces(
         solved=replace(solved, panels=(solved.panels[place],), **arrays),
         pulls=Pulls(*(each[own] for each in panel.pulls)),
-        bands={name: band[:, own] for name, band in panel.bands.items()},
+        ropes={name: band[:, own] for name, band in panel.ropes.items()},
     )
     return replace(result, panel=alone)
 
