@@ -8,18 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from netdesign.checks.inputs import Band
 from netdesign.envelope.panel_forces import PanelForces
-from netdesign.envelope.rows import LARGE
 from netdesign.envelope.run import CaseResult
 from netdesign.envelope.signed_forces import gather_pulls
 from netdesign.guideline.floor import Floor
-from netdesign.numerics.arrays import Floats, Ints
+from netdesign.numerics.arrays import Floats, Ints, Mask
 from netdesign.structure.anchors import measure_pull
 from netdesign.structure.layout import Point
 from netdesign.structure.members import Member, RopeForce
@@ -29,7 +27,7 @@ _DIRECTIONS = 16  # in which the outermost of the pulls are looked for
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class HeadPulls:
-    """Pulls on the heads inside a row.
+    """Pulls on the heads inside a row, by its section and each of its panels.
 
     Attributes
     ----------
@@ -37,6 +35,10 @@ class HeadPulls:
         Of the net [rad].
     places : ndarray of int, shape (n,)
         Which of these each pull has.
+    origins : ndarray of int, shape (n,)
+        0 of the section, else the number of the panel.
+    groups : ndarray of bool, shape (g, n)
+        Pulls that are raised together, `list_groups`.
     pulls, errors : ndarray, shape (2, n) and (n,)
         (x, y) of each pull, and its error [N].
     has_panels : bool
@@ -45,6 +47,8 @@ class HeadPulls:
 
     inclinations: tuple[float, ...]
     places: Ints
+    origins: Ints
+    groups: Mask
     pulls: Floats
     errors: Floats
     has_panels: bool
@@ -54,16 +58,34 @@ class HeadPulls:
         """Number of pulls."""
         return self.places.size
 
-    @cached_property
-    def outermost(self) -> list[tuple[int, Point]]:
-        """Pulls that lie outermost among those at each of the inclinations [N]."""
+    def list_outermost(self, least: float) -> list[tuple[int, Point]]:
+        """Pulls that lie outermost among those at each of the inclinations [N].
+
+        In each group the pulls of the section, and of each panel, are raised until the
+        largest of them comes to the least one of all, the guideline's.
+        """
+        sizes = np.hypot(*self.pulls)
+        raised, places = [], []
+        for group in self.groups:
+            own = np.flatnonzero(group)
+            largest = np.zeros(self.origins.max(initial=0) + 1)
+            np.maximum.at(largest, self.origins[own], sizes[own])
+            factors = np.ones_like(largest)
+            np.divide(least, largest, out=factors, where=largest > 0.0)
+            np.maximum(factors, 1.0, out=factors)
+            raised.append(self.pulls[:, own] * factors[self.origins[own]])
+            places.append(self.places[own])
+        return self._choose(np.concatenate(raised, axis=1), np.concatenate(places))
+
+    def _choose(self, pulls: Floats, places: Ints) -> list[tuple[int, Point]]:
+        """Those of some pulls that lie outermost at their inclination [N]."""
         turns = 2.0 * np.pi * np.arange(_DIRECTIONS)[:, None] / _DIRECTIONS
         outermost: list[tuple[int, Point]] = []
         for place in range(len(self.inclinations)):
-            x, y = self.pulls[:, self.places == place]
+            x, y = pulls[:, places == place]
             far = (np.cos(turns) * x + np.sin(turns) * y).argmax(axis=1)
-            pulls = zip(x[far].tolist(), y[far].tolist(), strict=True)
-            outermost += [(place, pull) for pull in dict.fromkeys(pulls)]
+            chosen = zip(x[far].tolist(), y[far].tolist(), strict=True)
+            outermost += [(place, pull) for pull in dict.fromkeys(chosen)]
         return outermost
 
     def bound_size(self, hidden: float) -> Band:
@@ -86,13 +108,30 @@ def read_heads(
     x, y, errors = (part[:, :most].ravel() for part in (*pulls.head, pulls.head_errors))
     inclinations = [result.case.inclination for result in solved]
     distinct, places = np.unique(inclinations, return_inverse=True)
+    count = x.size // max(1, places.size)
     return HeadPulls(
         inclinations=tuple(distinct.tolist()),
-        places=places.repeat(x.size // max(1, places.size)),
+        places=places.repeat(count),
+        origins=np.tile(np.arange(count), places.size),
+        groups=np.array(list_groups(solved)).repeat(count, axis=1),
         pulls=np.array((x, y)),
         errors=errors,
         has_panels=has_panels and bool(list_panels(results)),
     )
+
+
+def list_groups(results: Sequence[CaseResult]) -> list[Mask]:
+    """Cases whose pulls are raised together: all, and those at each end of a range.
+
+    What pulls at one value of a range is not lowered by more load at another.
+    """
+    groups = [np.full(len(results), True)]
+    values = [result.case.values for result in results]
+    for name in values[0] if values else ():
+        own = np.array([each[name] for each in values])
+        ends = {own.min(), own.max()} if own.min() < own.max() else set()
+        groups += [own == end for end in sorted(ends)]
+    return groups
 
 
 def list_panels(results: Sequence[CaseResult]) -> list[PanelForces]:
@@ -151,15 +190,13 @@ def find_least_ropes(results: Sequence[CaseResult]) -> dict[RopeForce, float]:
 
 
 class RopeFactors(NamedTuple):
-    """Pulls of the guideline's load over those of the solved cases, at least 1 [-].
+    """Pulls of the ropes under the guideline's load over those solved, at least 1 [-].
 
-    ``lower`` and ``ridge`` raise the largest pull of each rope; ``head`` is that of the
-    panel whose heads are pulled least.
+    They raise the largest pull of lower and ridge rope.
     """
 
     lower: float = 1.0
     ridge: float = 1.0
-    head: float = 1.0
 
 
 def find_rope_factors(
@@ -167,56 +204,40 @@ def find_rope_factors(
 ) -> RopeFactors:
     """Factors by which the guideline's load raises what pulls along the row.
 
-    Of several panels that may be built each is raised by its own. What pulls at one
-    inclination is not lowered by more load at another: the cases at the least and the
-    largest one are raised alone, too. Theory: panel/THEORY.md, (P12), (P13).
+    Of several panels that may be built each is raised by its own, in each group of
+    `list_groups`. Theory: panel/THEORY.md, (P12), (P13).
     """
-    cases = list_panels(results)
+    solved = [result for result in results if list_panels([result])]
     foot = floor.find(Member.FOOT_ANCHOR) if floor else None
-    if not cases or floor is None or floor.head is None or foot is None:
+    if not solved or floor is None or floor.head is None or foot is None:
         return RopeFactors()
-    angles = [x.case.inclination for x in results if list_panels([x])]
-    groups = [cases] + [
-        [panel for panel, angle in zip(cases, angles, strict=True) if angle == end]
-        for end in {min(angles), max(angles)}
-    ]
-    lower, ridge, head = [], [], []
-    for group in groups:
-        feet, heads = _find_panel_factors(group, foot.force, floor.head.pull)
-        lower += [_raise_rope(cases, group, rope, feet) for rope in _OF_LOWER]
-        ridge += [_raise_rope(cases, group, rope, heads) for rope in _OF_RIDGE]
-        head += heads.tolist()
-    return RopeFactors(lower=max(lower), ridge=max(ridge), head=max(head))
+    cases = list_panels(solved)
+    feet = np.array([np.hypot(*panel.feet.T) for panel in cases])
+    heads = np.array([np.hypot(*panel.solved.head.T) for panel in cases])
+    groups = list_groups(solved)
+
+    def find(pulls: Floats, least: float, ropes: Sequence[RopeForce]) -> float:
+        sizes = [np.array([panel.ropes[rope][1] for panel in cases]) for rope in ropes]
+        return max(_raise(size, pulls, least, groups) for size in sizes)
+
+    return RopeFactors(
+        lower=find(feet, foot.force, _OF_LOWER),
+        ridge=find(heads, floor.head.pull, _OF_RIDGE),
+    )
 
 
 _OF_LOWER = (RopeForce.LOWER_ALONG, RopeForce.LOWER_TENSION)
 _OF_RIDGE = (RopeForce.UPPER_ALONG, RopeForce.UPPER_TENSION)
 
 
-def _find_panel_factors(
-    cases: Sequence[PanelForces], foot: float, head: float
-) -> tuple[Floats, Floats]:
-    """Pull on foot and on head [N] over the largest ones of each panel, at least 1."""
-    feet = np.max([np.hypot(*panel.feet.T) for panel in cases], axis=0)
-    heads = np.max([np.hypot(*panel.solved.head.T) for panel in cases], axis=0)
-    return np.maximum(1.0, foot / feet), np.maximum(1.0, head / heads)
+def _raise(sizes: Floats, pulls: Floats, least: float, groups: list[Mask]) -> float:
+    """Largest force of a rope once its pulls come to a least one, over that before.
 
-
-def _raise_rope(
-    every: Sequence[PanelForces],
-    cases: Sequence[PanelForces],
-    rope: str,
-    factors: Floats,
-) -> float:
-    """Largest force of a rope in some cases, each panel's raised, over that of all.
-
-    Where a panel's force is largest, it has a share of the largest of all panels:
-    envelope/THEORY.md, (E3).
+    Both of shape (cases, panels) [N].
     """
-    sizes = np.array([panel.ropes[rope][1] for panel in cases])  # by case and panel
-    largest = sizes.max(axis=1)[:, None]
-    is_near = largest >= LARGE * sizes.max(axis=0)
-    shares = np.where(is_near, sizes / largest, 0.0).max(axis=0)
-    of_all = max(float(panel.ropes[rope][1].max()) for panel in every)
-    raised = float((factors * shares).max())
-    return raised * (float(largest.max()) / of_all if of_all else 1.0)
+    raised = [
+        float((np.maximum(1.0, least / pulls[own].max(axis=0)) * sizes[own]).max())
+        for own in groups
+    ]
+    largest = float(sizes.max())
+    return max(raised) / largest if largest > 0.0 else 1.0

@@ -119,7 +119,6 @@ class FloorRecord:
     # Pull of the guideline's load on a rope over that of the solved cases, at least 1.
     lower_rope: float = 1.0
     ridge_rope: float = 1.0
-    heads: float = 1.0  # over that on the heads of the panel that pulls least
 
 
 @dataclass(frozen=True, kw_only=True)

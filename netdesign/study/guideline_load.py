@@ -263,12 +263,9 @@ def build_geometry(row: NetRow, inclination: float) -> NetGeometry[float]:
 
 
 def record_floor(
-    floor: Floor | None, factors: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    floor: Floor | None, factors: tuple[float, float] = (1.0, 1.0)
 ) -> FloorRecord | None:
-    """Floor of a row in engineer's units.
-
-    ``factors`` are those on lower rope, ridge rope and heads.
-    """
+    """Floor of a row in engineer's units; factors on lower and ridge rope."""
     if floor is None:
         return None
     return FloorRecord(
@@ -277,7 +274,6 @@ def record_floor(
         reason=floor.reason,
         lower_rope=factors[0],
         ridge_rope=factors[1],
-        heads=factors[2],  # without it nobody could redo the truss of a row's end
     )
 
 

@@ -21,7 +21,7 @@ from netdesign.structure.head import (
     HeadForces,
     compute_head_forces,
 )
-from netdesign.structure.layout import SupportPoints, place_support
+from netdesign.structure.layout import Point, SupportPoints, place_support
 from netdesign.structure.members import GUYS, Member, RopeForce, name_in_panel
 from netdesign.structure.splay import (
     EndHead,
@@ -115,7 +115,11 @@ _INCLINATIONS = 8  # parts of their range: what the guy brings changes smoothly
 
 
 def find_end_guy(
-    task: RowToCheck, end: RowEnd, heads: HeadPulls, *, along: float, scale: float
+    task: RowToCheck,
+    end: RowEnd,
+    heads: HeadPulls,
+    pulls: Sequence[tuple[int, Point]],
+    along: float,
 ) -> EndGuyRecord | Message:
     """Forces that the end guy brings to the end's support, or why nothing holds them.
 
@@ -127,10 +131,10 @@ def find_end_guy(
         Of the row.
     heads : HeadPulls
         States of all its cases.
+    pulls : sequence of tuple of int, tuple of float
+        On the head at the end, with the guideline's load, by their inclination [N].
     along : float
         H, largest pull of the ridge rope along the row [N].
-    scale : float
-        Pull on the head there over that inside the row, with the guideline's load [-].
     """
     row, span = task.row, task.site.ranges["inclination"]
     places = place_over(row, span)
@@ -141,7 +145,7 @@ def find_end_guy(
     forces = [support for support in held if isinstance(support, HeadForces)]
     posts = [head.post_compression for head in forces]
     upright = [place.head[1] / place.post_length for place in places]
-    tensions = _share_end(task, end, heads, along, scale)
+    tensions = _share_end(task, end, heads, pulls, along)
     if isinstance(tensions, Message):
         return tensions
     return EndGuyRecord(
@@ -162,7 +166,11 @@ def place_over(row: NetRow, span: Interval) -> list[SupportPoints]:
 
 
 def _share_end(
-    task: RowToCheck, end: RowEnd, states: HeadPulls, along: float, scale: float
+    task: RowToCheck,
+    end: RowEnd,
+    states: HeadPulls,
+    pulls: Sequence[tuple[int, Point]],
+    along: float,
 ) -> tuple[float, float] | Message | None:
     """Largest tensions of an outer guy uphill and downhill by the linear truss [N].
 
@@ -185,11 +193,10 @@ def _share_end(
         ),
         default=0.0,
     )
-    scale *= hidden
     places = _place_heads(row, states)
     heads = [
-        EndHead(points=places[k], pull=(scale * x, scale * y), along=along)
-        for k, (x, y) in states.outermost
+        EndHead(points=places[k], pull=(hidden * x, hidden * y), along=along)
+        for k, (x, y) in pulls
     ]
     ways = end.stiffnesses
     tensions = share_with_end_guy(heads, splay=splay, guy=end.guy, stiffness=ways)

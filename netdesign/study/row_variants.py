@@ -21,7 +21,7 @@ from netdesign.envelope.rows import RowEnvelope
 from netdesign.envelope.run import CaseResult
 from netdesign.guideline.floor import Floor
 from netdesign.site.model import NetRow
-from netdesign.structure.layout import SupportLayout
+from netdesign.structure.layout import Point, SupportLayout
 from netdesign.structure.members import Member
 from netdesign.study.anchor_pulls import list_pulls
 from netdesign.study.case_records import LargestForce, record_largest
@@ -74,7 +74,13 @@ def find_least_forces(task: RowToCheck, row: NetRow, solved: RowEnvelope) -> Row
     cases = gather_cases(task, row, solved)
     heads = read_heads(row.layout.post_spacing, solved.results, has_panels=False)
     feet = measure_feet(solved.results, has_panels=False)
-    cases = replace(cases, heads=heads, feet=feet, factors=RopeFactors())
+    cases = replace(
+        cases,
+        heads=heads,
+        feet=feet,
+        factors=RopeFactors(),
+        outermost=heads.list_outermost(0.0),
+    )
     base = read_cases(cases)
     largest = _take_least(base.largest, solved.results)
     forces = place_forces(cases, replace(base, largest=largest))
@@ -119,6 +125,8 @@ class RowCases:
         Forces by the guideline's load.
     factors : RopeFactors
         By which that raises what pulls along the row.
+    outermost : list of tuple of int, tuple of float
+        Pulls on its heads with that load, by their inclination [N].
     """
 
     task: RowToCheck
@@ -126,6 +134,7 @@ class RowCases:
     feet: FootPulls
     floor: Floor | None
     factors: RopeFactors
+    outermost: list[tuple[int, Point]]
 
 
 def gather_cases(
@@ -134,14 +143,18 @@ def gather_cases(
     """Solved cases of a variant of a row; ``before`` on another layout of its."""
     at = replace(task, row=row, solved=solved)
     width, floor = row.layout.post_spacing, _find_floor(task, row.layout)
+    if before and _pull_alike(before.floor, floor):
+        return replace(before, task=at, floor=floor)
+    heads = before.heads if before else read_heads(width, solved.results)
     return RowCases(
         task=at,
-        heads=before.heads if before else read_heads(width, solved.results),
+        heads=heads,
         feet=before.feet if before else measure_feet(solved.results),
         floor=floor,
-        factors=before.factors
-        if before and _pull_alike(before.floor, floor)
-        else find_rope_factors(solved.results, floor),
+        factors=find_rope_factors(solved.results, floor),
+        outermost=heads.list_outermost(
+            floor.head.pull if floor and floor.head else 0.0
+        ),
     )
 
 
@@ -203,10 +216,7 @@ def place_forces(cases: RowCases, base: RowForces) -> RowForces:
     end, along = task.row.row_end, find_end_pull(forces)
     if end is None or along is None:
         return forces
-    factors = cases.factors
-    if factors.ridge < factors.head:  # all panels are raised as the least one
-        along *= factors.head / factors.ridge
     wider = forces.effects.supports[-1].width / task.row.layout.post_spacing
-    scale = wider * factors.head
-    end_guy = find_end_guy(task, end, cases.heads, along=along, scale=scale)
+    pulls_there = [(place, (wider * x, wider * y)) for place, (x, y) in cases.outermost]
+    end_guy = find_end_guy(task, end, cases.heads, pulls_there, along)
     return replace(forces, end_guy=end_guy)

@@ -205,7 +205,7 @@ class Row:
 
     def floor_scale(self, rope):
         """The guideline's pull on foot or head over the panel's, at least 1 (B4)."""
-        name = {"lower": "lower_rope", "upper": "ridge_rope", "head": "heads"}[rope]
+        name = {"lower": "lower_rope", "upper": "ridge_rope"}[rope]
         return self.study["floor"][name]
 
     @property
@@ -308,10 +308,10 @@ class Row:
     def bracket_truss(self):
         """Outer guys of the end by trusses of the least and the largest pull [kN]."""
         splay, width = self.angle("guy_splay"), self.grow(self.widths["edge"])
-        width *= self.floor_scale("head")  # the guideline's pull on the head, (B4)
+        held = self.study["held_sideways"]
+        least = held["floor_pull_kN"]  # on a head, (B4)
+        most = max(least, held["pull_kN"])
         along, angle = self.end_guy
-        more = max(1.0, self.floor_scale("head") / self.floor_scale("upper"))
-        along = tuple(more * one for one in along)  # (P13): as its heads
         pulls = [
             (self.solved[f"{model}uphill_guy"], self.solved[f"{model}post"])
             for model in ("", "panel_")  # by the section, and by the panel
@@ -323,21 +323,21 @@ class Row:
             for ropes in self.list_stiffnesses():
                 bars = statics.build_end_truss(section, splay, ropes, reach=reach)
 
-                def find(tension, compression, bars=bars, section=section):
-                    pull = [
-                        width * (compression * p - tension * g)
-                        for p, g in zip(section.post, section.guy, strict=True)
-                    ]
-                    load = (*pull, along[1])
+                def find(pull, bars=bars, section=section):
+                    load = (*(width * pull), along[1])
                     found = statics.solve_truss((*section.head, 0.0), bars, load)
                     return found["outer uphill"], found["outer downhill"]
 
                 for guy, post in pulls:
-                    pressed, free = find(guy[1], post[1]), find(guy[1], 0.0)
-                    low["uphill"].append(pressed[0])
-                    high["uphill"].append(hidden * free[0])
-                    low["downhill"].append(pressed[1])
-                high["downhill"].append(hidden * find(0.0, 0.0)[1])
+                    pull = post[1] * np.array(section.post)
+                    pull -= guy[1] * np.array(section.guy)
+                    raised = max(1.0, least / np.hypot(*pull))
+                    low["uphill"].append(find(raised * pull)[0])
+                    low["downhill"].append(find(raised * pull)[1])
+                # whatever its direction, no pull loads the guy more than along it
+                along_guy = -most * np.array(section.guy)
+                high["uphill"].append(hidden * find(along_guy)[0])
+                high["downhill"].append(hidden * find(0.0 * along_guy)[1])
         return tuple({k: max(one[k]) for k in one} for one in (low, high))
 
     def list_stiffnesses(self):
