@@ -135,8 +135,9 @@ def load_standard(id_or_path: str | Path) -> Standard:
     StandardError
         If there is no such profile, or its files are not as they must be.
     """
-    if str(id_or_path) in list_standards():
-        return _load_own(str(id_or_path))
+    own = str(id_or_path).casefold()
+    if own in list_standards():
+        return _load_own(own)
     if is_there(Path(id_or_path)) and Path(id_or_path).is_dir():
         return _load_folder(Path(id_or_path))
     raise StandardError(_explain_unknown(str(id_or_path)))

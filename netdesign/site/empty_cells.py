@@ -87,16 +87,17 @@ def _find_open(row: Row, end: Row, lines: Lines) -> dict[str, bool]:
         "altitude": not row["altitude"].given_si,
         "snow_layers": row["id"].word not in lines.snow,
         "axial_stiffness": any(
-            rope["axial_stiffness"].state != "given" for rope in ropes if rope
+            rope is None or rope["axial_stiffness"].state != "given" for rope in ropes
         ),
+        **{key: gap != 0.0 and row[key].state == "blank" for key in _OF_END},
         "guy_splay": count != 1 and row["guy_splay"].state == "blank",
         "guy_anchors": count != 1 and row["guy_anchors"].state == "blank",
         "row_end": gap is None,
-        "end_guy_angle": gap != 0.0 and row["end_guy_angle"].state == "blank",
         "anchor_axes": len(read_axes(row, ANCHORS, lines.types)) < len(ANCHORS),
     }
 
 
+_OF_END = ("post_count", "ropes_at_supports", "end_guy_angle")
 _OF_TYPES = ("anchor_kind", "lever_arm", "base_friction", "buckling_length")
 
 

@@ -95,15 +95,17 @@ def settle_ids(lines: Iterable[Row], ids: Iterable[str], key: str) -> list[Row]:
 def index_lines(
     lines: Iterable[Row], key: str, accepted: Message, findings: list[Finding]
 ) -> dict[str, Row]:
-    """Lines by the id in a column; an id used again is a finding."""
+    """Lines by the id in a column; an id used again is a finding, in whatever case."""
     by_id: dict[str, Row] = {}
+    places: dict[str, str] = {}
     for line in lines:
         reading = line[key]
-        if reading.word in by_id:
-            rule = say("nets.used_twice", place=by_id[reading.word][key].place)
+        folded = fold_id(reading.word)
+        if folded in places:
+            rule = say("nets.used_twice", place=places[folded])
             refuse(reading, rule, accepted, findings)
         elif reading.word:
-            by_id[reading.word] = line
+            by_id[reading.word], places[folded] = line, reading.place
     return by_id
 
 

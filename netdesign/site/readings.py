@@ -302,7 +302,23 @@ def _understand(cell: Cell, field: Field, unit: str) -> float | str | Refusal | 
     text = _understand_text(cell, field)
     if field.kind == "date" and isinstance(text, str) and not is_moment(text):
         return Refusal(say("cell.no_date"), field.accepted)
+    if field.kind == "document" and isinstance(text, str) and not _is_document(text):
+        return Refusal(say("cell.no_document"), say("cell.document_accepted"))
     return text
+
+
+# What stands in a document's cell where there is none, or none yet.
+_NO_DOCUMENT = re.compile(
+    r"none|no|nil|na|unknown|pending|applied for|requested|to follow|tbd|tbc|yes|ok"
+    r"|keine?r?|nein|unbekannt|beantragt|folgt|offen|ja|liegt vor|vorhanden"
+    r"|aucune?|non|néant|inconnu|demandée?|en cours|oui|sans"
+)
+
+
+def _is_document(text: str) -> bool:
+    """A text may be the number or title of a document."""
+    plain = " ".join(re.sub(r"[^\w\s]", "", text).casefold().split())
+    return len(plain) > 1 and not _NO_DOCUMENT.fullmatch(plain)
 
 
 def _understand_number(cell: Cell, field: Field, unit: str) -> float | str | Refusal:

@@ -44,6 +44,7 @@ from netdesign.words.message import Message, say
 SEARCHED = ("slack", "net_stiffness", "glide_factor")
 _SAGS = ("ridge_sag", "lower_sag")
 _PULLS = frozenset(("T_r", "T_b", "E_t"))  # symbols of what a rope brings to a check
+_MANY = 100  # posts: both ends of the row are far from each other
 _PARTS = 8  # of a range, among which is the value from which on a check passes
 _FindForces = Callable[[RowToCheck, NetRow, RowEnvelope], RowForces]
 _BETTER = 0.99  # a utilisation below this share of the worst one is told
@@ -134,8 +135,23 @@ class _BestEnds:
 
     @property
     def best(self) -> RowForces:
-        """Forces of the variant on which the member is least used."""
-        return self.judged.best or self.judged.forces
+        """Forces of the variant on which the member is least used.
+
+        In a long row, where the number of posts is assumed.
+        """
+        forces = self.judged.best or self.judged.forces
+        if not self._are_posts_open:
+            return forces
+        row = replace(forces.row, post_count=_MANY)
+        key = (_name(row), _MANY)
+        if key not in self.forces_at:
+            solved = self.task.solved.on_layout(row.layout)
+            self.forces_at[key] = find_forces_alone(self.task, row, solved)
+        return self.forces_at[key] or forces
+
+    @property
+    def _are_posts_open(self) -> bool:
+        return self.row.has_end and self.row.post_count is None
 
     @property
     def row(self) -> NetRow:
@@ -151,6 +167,8 @@ class _BestEnds:
             return replace(self.judged, rated=_leave_to_sags(check))
         if self.judged.again is None or not is_beyond:
             return self.judged
+        if check.verdict is Verdict.FAIL and self._are_posts_open:
+            check = self._ease(lambda forces: forces, "assumed.by_posts")
         if check.verdict is Verdict.FAIL and self._has_open_pull():
             check = self._ease(_take_off_ropes, "assumed.by_ropes")
         if check.verdict is Verdict.FAIL and _has_open_truss(self.row):

@@ -42,6 +42,7 @@ _WHO: Mapping[str, Who] = {
     "row_above": "site",
     "gap": "site",
 }
+_DECIMALS = {"snow_height": 2, "cover": 1, "edge": 1}  # of metres, rounded up
 _LEAST_COUNTS = ("cover", "gap")  # of all others the largest number
 
 
@@ -104,7 +105,9 @@ def _is_worse(condition: Condition, other: Condition) -> bool:
 def _state(key: str, value: float | None = None) -> Condition:
     text = say(f"condition.{key}")
     if value is not None:
-        text = say(f"condition.{key}_of", value=value)
+        scale = 10.0 ** _DECIMALS.get(key, 6)
+        shown = math.ceil(value * scale - 1e-6) / scale
+        text = say(f"condition.{key}_of", value=shown)
     return Condition(key=key, who=_WHO[key], message=text, value=value)
 
 

@@ -124,7 +124,8 @@ def _judge_worst(
     """Judge a member where it is worst; ``find`` gives its resistance."""
 
     def rate(forces: RowForces) -> MemberCheck:
-        return rate_at(forces, find(forces, resistance, width), width)
+        there = forces.effects.find_support(width.position)
+        return rate_at(forces, find(forces, resistance, there), there)
 
     apart = list_apart(variants, resistance.member, width)
     if len(apart) == 1:
@@ -186,7 +187,8 @@ def _rate_direction(
     if pull and resistance.type_id:
         check = check_direction(pull, forces.standard, open_cases)
     if check is None:
-        return rate_at(forces, resistance, width)
+        there = forces.effects.find_support(width.position)
+        return rate_at(forces, resistance, there)
     check = replace(
         check, id=check.id + AT_SUPPORT[width.position], position=width.position
     )

@@ -60,18 +60,24 @@ class Rated:
         The worst of the checks.
     check : Check
         That decides; where a document decides, the most used one of the others.
-    by_guideline : float or None
-        Largest utilisation by the guideline's load alone [-].
     """
 
     verdict: Verdict
     check: Check
-    by_guideline: float | None
 
     @property
     def used(self) -> float | None:
         """Utilisation of the check that is shown [-]."""
         return self.check.used
+
+    @property
+    def by_guideline(self) -> float | None:
+        """Utilisation of that check by the guideline's load alone [-].
+
+        None where that has no force on its member: it only raises the ropes' pulls.
+        """
+        check = self.check
+        return check.utilisation_by_guideline if check.read("E_g") else None
 
 
 def rate(checks: Sequence[Check]) -> Rated | None:
@@ -85,12 +91,7 @@ def rate(checks: Sequence[Check]) -> Rated | None:
     if verdict is Verdict.DECLARED:
         pool = [force for force in forces if force.used is not None] or pool
     shown = max(pool or own or forces or checks, key=_rank)
-    by_guideline = [force.utilisation_by_guideline for force in forces]
-    return Rated(
-        verdict=verdict,
-        check=shown,
-        by_guideline=max((x for x in by_guideline if x is not None), default=None),
-    )
+    return Rated(verdict=verdict, check=shown)
 
 
 def _rank(check: Check) -> tuple[bool, float, float]:

@@ -124,7 +124,7 @@ def from_si(value: float, unit: str) -> float:
     return value / to_si(1.0, unit)
 
 
-Kind = Literal["number", "count", "word", "id", "date", "text"]
+Kind = Literal["number", "count", "word", "id", "date", "document", "text"]
 LONGEST_HEADING = 100
 
 
@@ -154,7 +154,8 @@ class Field:
     table : str
         Sheet or list that it belongs to.
     kind : str
-        ``number``, ``count`` (whole number), ``word``, ``id``, ``date`` or ``text``.
+        ``number``, ``count`` (whole number), ``word``, ``id``, ``date``, ``document``
+        (that proves something) or ``text``.
     units : tuple of str
         Units that a heading may give; the first is that of bounds, default and
         reports.
