@@ -68,7 +68,7 @@ _LACKS = {  # short
 }
 # Columns of a terminal, and of its parts.
 _WIDE = 100  # has room for the utilisation by the guideline
-_ANCHOR, _ANCHOR_WIDE, _STRUCTURE, _COUNT = 8, 12, 13, 2
+_ANCHOR, _ANCHOR_WIDE, _STRUCTURE, _COUNT = 9, 12, 13, 2
 _LONGEST_ID, _GOVERNING, _LEAST_GOVERNING = 10, 45, 8
 
 
@@ -159,13 +159,19 @@ class Matrix:
         return mark + spelled
 
     def _fit(self, content: Content, width: int) -> str:
-        """Content in so many columns; what stands beside its number goes first."""
+        """Content in so many columns; no number is cut.
+
+        What stands beside it goes first, then the lower end of a span.
+        """
         short = [piece for piece in content if not _is_beside(piece)]
-        for parts in (content, short if len(short) > 1 else content):
-            text = " ".join(self._spell(write_plain(tuple(parts))).split())
-            if len(text) <= width:
-                return text
-        return self._cut(text, width)
+        whole, plain = (
+            " ".join(self._spell(write_plain(tuple(parts))).split())
+            for parts in (content, short if len(short) > 1 else content)
+        )
+        first, _, span = plain.partition(" ")
+        upper = f"{first} {span.rpartition(self._spell('–'))[2]}"
+        fitting = (text for text in (whole, plain, upper) if len(text) <= width)
+        return next(fitting, self._cut(plain, width))
 
     def _name_governing(self, row: RowStudy) -> str:
         """Check that decides, by as long a name as there is room for."""

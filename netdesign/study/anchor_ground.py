@@ -73,11 +73,26 @@ def check_anchor_distance(
     if is_above:
         anchors = (anchors[0], say("bores.of_row_above", anchor=anchors[1]))
     named = tuple(dict.fromkeys(anchors))
-    reason = say(key, least=least, limit=limit.value, anchors=named)
+    names = () if is_apart else _list_unsaid(forces)
+    if names:
+        key = "bores.near_unsaid"
+    reason = say(key, least=least, limit=limit.value, anchors=named, names=names)
     if open_cases is None and is_apart:
         return compare("anchors", Verdict.PASS, reason, limit)
     near = compare("anchors", Verdict.NOT_PROVEN, None, limit)
     return near.with_open(OpenKind.UNSOLVED, open_cases or reason)
+
+
+def _list_unsaid(forces: RowForces) -> tuple[Message, ...]:
+    """Names of what nobody says of the bores, and what may bring them apart."""
+    row = forces.row
+    lengths = (
+        name
+        for pull in forces.pulls
+        for name in row.list_missing_bore(pull.anchor, pull.position)
+    )
+    open_keys = (row.find_assumed(key) for key in ("guy_anchors", "upslope_length"))
+    return (*dict.fromkeys(lengths), *(each.name for each in open_keys if each))
 
 
 def _list_sharings(row: NetRow) -> list[NetRow]:

@@ -194,11 +194,16 @@ def _find_holder(name: str) -> Who | None:
 def _sum_up(group: Sequence[_Point]) -> ToDo:
     """Line of some points of one key: its number is that of the worst check."""
     worst = max(group, key=lambda each: (each.check.used or 0.0, _find_demand(each)))
-    return ToDo(
-        who=worst.who,
-        text=_describe(worst, group),
-        rows=tuple(dict.fromkeys(point.row for point in group)),
-    )
+    rows = tuple(dict.fromkeys(point.row for point in group))
+    text, check = _describe(worst, group), worst.check
+    titles = {(point.check.member, point.check.mode) for point in group}
+    if worst.key[0] in _OF_ONE and (len(rows) > 1 or len(titles) > _FEW):
+        title = name_check(check.member, check.mode)
+        text = say("to_do.numbers_of", what=text, row=worst.row, check=title)
+    return ToDo(who=worst.who, text=text, rows=rows)
+
+
+_OF_ONE = ("fails", "together", "decides")  # lines with the numbers of one check
 
 
 def _find_demand(point: _Point) -> float:
