@@ -51,7 +51,8 @@ def test_a_line_has_the_number_of_the_worst_row():
     (worst,) = list_to_do(replace(study, rows=[failing]))[:1]
     both = [replace(failing, id="N1"), replace(study.rows[0], id="N2"), failing]
     line, *_ = list_to_do(replace(study, rows=both))
-    assert line.text == worst.text
+    assert line.text.arguments["what"] == worst.text
+    assert line.text.arguments["row"] == "N1"
     assert line.rows == ("N1", failing.id)
 
 
