@@ -203,7 +203,7 @@ def test_an_id_that_no_sheet_defines_is_refused_with_near_matches(book):
 
 def test_ids_used_twice_are_refused_with_the_first_place(book):
     book.put("row", "R1", SECOND)
-    book["Anchors"].append(["A1", 200, None, None])
+    book["Anchors"].append(["a1", 200, None, None])  # in any case
     rules = {(one.sheet, one.cell): str(one.rule) for one in book.refuse()}
     assert rules["Rows", "A3"] == "is used twice: also in Rows!A2"
     assert rules["Anchors", "A4"] == "is used twice: also in Anchors!A2"

@@ -103,6 +103,22 @@ def test_no_check_is_better_than_with_a_value(of_slack, typed):
                 assert high <= 1.003 * worst.utilisation_band[1], one.id
 
 
+@pytest.mark.parametrize("held", [0.9e5, 1.25e5, 1.4e5])
+def test_a_row_whose_posts_nobody_counts_fails_only_where_a_long_one_does(held):
+    """It is used as the worst of few posts, and eased as a row of many."""
+    row = build_row("R1", resistances=resist(held))
+    few, many, nobody = (
+        index(judge(replace(row, post_count=count), (0.05, 0.05)))
+        for count in (2, 40, None)
+    )
+    for name, check in many.items():
+        if check.verdict is not Verdict.FAIL:
+            assert nobody[name].verdict is not Verdict.FAIL, name
+    for name, check in few.items():
+        if check.used is not None and name in nobody:
+            assert check.used <= (nobody[name].used or 0.0) * (1.0 + 1e-9), name
+
+
 def test_the_value_that_decides_is_told_and_does(of_slack):
     decided = list_decided(of_slack)
     assert len(decided) > 1

@@ -113,3 +113,11 @@ def test_a_missing_resistance_leaves_its_own_check_open_and_no_other(solved, see
             assert check.verdict is Verdict.NOT_PROVEN
             assert [x.kind for x in check.open] == [OpenKind.RESISTANCE_MISSING]
             assert check.demand_kN == pytest.approx(before[name].demand_kN)
+
+
+def test_a_length_that_is_enough_is_never_rounded_down(solved):
+    study, _ = judge(solved)
+    shown = [state(study)[key] for key in ("cover", "edge", "snow_height")]
+    for one in shown:
+        told = one.message.arguments["value"]
+        assert one.value - 1e-6 <= told <= one.value + 0.1, one.key

@@ -9,7 +9,11 @@ import pytest
 
 from netdesign.cable.funicular import build_alike
 from netdesign.envelope.panel_forces import PanelForces, Pulls
-from netdesign.envelope.row_pulls import find_rope_factors, list_panels
+from netdesign.envelope.row_pulls import (
+    find_rope_factors,
+    list_panels,
+    read_heads,
+)
 from netdesign.guideline.floor import Floor, FloorForce, HeadSpan
 from netdesign.panel.solve import PanelSolution, solve_strips
 from netdesign.panel.strips import build_strip
@@ -77,6 +81,34 @@ def test_each_panel_that_may_be_built_is_raised_as_if_it_were_given(seed, mid):
             factor = getattr(find_rope_factors(given, floor), name)
             alone.append(factor * take_largest(given, rope))
         assert (1.0 - 1e-12) * max(alone) <= raised <= 1.01 * max(alone)
+
+
+@each("mid", [False, True])
+@each("seed", range(50, 56))
+def test_cases_at_the_ends_of_a_range_are_raised_as_if_each_end_were_typed(seed, mid):
+    """No typed density asks more of a rope, nor pulls more on a head."""
+    draw = random.Random(seed)
+    solve, _, spacing = draw_case(seed)
+    panels = assume_all(spacing, mid)
+    shares = (0.6, draw.uniform(0.7, 1.1), 1.3)
+    results = [
+        replace(one, case=replace(one.case, density=share))
+        for one, share in ((solve(panels, share), share) for share in shares)
+    ]
+    if len(list_panels(results)) < len(results):
+        pytest.skip("a case without panels")
+    heads = read_heads(spacing, results)
+    head = draw.uniform(0.5, 2.5) * float(np.hypot(*heads.pulls).max())
+    floor = make_floor(0.0, head)
+    raised = [
+        find_rope_factors(some, floor).ridge * take_largest(some, RopeForce.UPPER_ALONG)
+        for some in (results, *([one] for one in results))
+    ]
+    assert max(raised[1], raised[3]) <= raised[0] * (1.0 + 1e-12)
+    assert raised[0] <= 1.01 * max(raised[1:])
+    sizes = [math.hypot(*pull) for _, pull in heads.list_outermost(head)]
+    most = max(head, float(np.hypot(*heads.pulls).max()))
+    assert max(sizes) == pytest.approx(most, rel=1e-9)
 
 
 @each("mid", [False, True])

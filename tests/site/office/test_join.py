@@ -10,7 +10,14 @@ from netdesign.site.columns.office import load_columns, load_plan
 from netdesign.site.reader import read_site
 from netdesign.structure.members import NetPart
 from tests.each import each
-from tests.make import find_cell, lay_out, read_tables, write_sheets, write_site
+from tests.make import (
+    find_cell,
+    lay_out,
+    load_rows,
+    read_tables,
+    write_sheets,
+    write_site,
+)
 from tests.site.office.drawn import draw_tables
 
 LANGUAGES = ("en", "fr", "de")
@@ -209,3 +216,15 @@ def test_a_word_declares_several_checks_of_several_rows():
     assert {one.row_id for one in site.declared} == {"A1", "A3"}
     assert {one.mode for one in site.declared} == {"bearing", "sliding"}
     assert {one.proof.document for one in site.declared} == {"EX-G7"}
+
+
+@pytest.mark.parametrize(
+    "word", ["-", "?", "1", "none", "Applied for.", "keine", "non"]
+)
+def test_a_word_is_no_type_approval(word):
+    """The structure would be proven by it."""
+    tables = load_rows(["R1"])
+    tables["net_types"][0]["approval"] = word
+    with pytest.raises(SiteDataError) as refused:
+        read_tables(tables)
+    assert [one.rule.key for one in refused.value.findings] == ["cell.no_document"]
