@@ -232,3 +232,13 @@ def test_what_is_beyond_is_refused_with_what_is_accepted(
 ):
     with pytest.raises(ModelError, match=rf"^slack = .*must {accepted}"):
         require("slack", value, *beside)
+
+
+def test_a_value_without_a_unit_is_told_without_one():
+    told = []
+    for unit in ("m", ""):
+        with pytest.raises(ModelError) as refused:
+            require_positive("post spacing", -1.7, unit)
+        told.append(str(refused.value))
+    assert told[1] == told[0].removesuffix(" m")
+    assert told[1] != told[0]

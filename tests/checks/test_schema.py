@@ -2,6 +2,7 @@
 
 import math
 import random
+import re
 
 import pytest
 
@@ -86,6 +87,7 @@ def test_every_mode_of_a_site_may_have_a_factor():
 def test_an_unknown_key_further_in_is_refused_with_those_of_its_place():
     choice = {"name": "annex", "text": "An annex.", "factor": [an_entry(valeu=1)]}
     message = refusal(ChoicesFile, {"choice": [choice]})
+    assert message.startswith("my.toml: ")
     assert "accepted are id, clause, text, value, unit, status, source" in message
     table = an_entry(id="correlation.tests.mean", over="tests")
     del table["value"]
@@ -187,6 +189,12 @@ def test_limits_are_refused_with_what_is_accepted(limits, told):
 def test_an_unknown_key_of_a_file_is_refused():
     told = refusal(FactorsFile, {"factor": [], "factors": []})
     assert "'factors': unknown key; accepted are factor" in told
+    of_load = refusal(DocumentFile, a_document(load={"flor": "none"}))
+    assert re.search("'load' 'flor': unknown key; accepted are .*floor", of_load)
+
+
+def test_a_table_in_the_place_of_a_text_is_shown():
+    assert "'id' = {'a': 1}" in refusal(DocumentFile, a_document(id={"a": 1}))
 
 
 @pytest.mark.parametrize("name", ["", "My profile", "../x", "-a"])
