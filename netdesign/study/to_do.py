@@ -140,7 +140,8 @@ def _sort(
     is_missing = point.kind is OpenKind.RESISTANCE_MISSING
     if point.kind is OpenKind.ASSUMED_DECIDES:
         deciding = _name_deciding(message)
-        holder = _find_holder(deciding) or "supplier"
+        of_office = deciding == "assumed.by_posts"
+        holder = _find_holder(deciding) or ("office" if of_office else "supplier")
         if message.key == _LOWERS:
             return holder, "lowers"
         return holder, "decides", deciding
