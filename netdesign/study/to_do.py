@@ -27,11 +27,13 @@ _HEAD = "direction.no_head"  # says what the head has to take
 _SHORT = ("post_bending.too_much_shortly",)
 
 # Who answers for a column of the input workbook: a survey is made on the site.
+# An assumed value that no column holds stands here itself.
 _OF_COLUMN: Mapping[str, Who] = {
     "office": "office",
     "supplier": "supplier",
     "ground": "ground",
     "survey": "site",
+    "assumed.by_posts": "office",
 }
 # Who answers for what a member can fail by.
 _OF_MODE: Mapping[str, Who] = {
@@ -140,8 +142,7 @@ def _sort(
     is_missing = point.kind is OpenKind.RESISTANCE_MISSING
     if point.kind is OpenKind.ASSUMED_DECIDES:
         deciding = _name_deciding(message)
-        of_office = deciding == "assumed.by_posts"
-        holder = _find_holder(deciding) or ("office" if of_office else "supplier")
+        holder = _find_holder(deciding) or "supplier"
         if message.key == _LOWERS:
             return holder, "lowers"
         return holder, "decides", deciding
@@ -188,7 +189,7 @@ def _find_holder(name: str) -> Who | None:
     """Who has the value of a column, as the input workbook says; None of others."""
     table, _, key = name.removeprefix("column.").rpartition(".")
     columns = load_columns(table) if table in TABLES else ()
-    has = next((column.has for column in columns if column.field.key == key), "")
+    has = next((column.has for column in columns if column.field.key == key), name)
     return _OF_COLUMN.get(has)
 
 
@@ -213,8 +214,7 @@ def _find_demand(point: _Point) -> float:
 
 def _describe(worst: _Point, group: Sequence[_Point]) -> Message:
     check, kind = worst.check, worst.key[0]
-    others = (point.check for point in group if point is not worst)
-    checks = name_few_checks([check, *others])
+    checks = name_few_checks([check, *(point.check for point in group)])
     if kind == "fails" and check.verdict is Verdict.FAIL:
         return _describe_failed(check, checks)
     if kind == "needs":
