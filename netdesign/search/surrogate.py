@@ -302,15 +302,18 @@ def _build_trend(at: Floats) -> Floats:
 
 def measure_distances(a: Floats, b: Floats) -> Floats:
     """Distances of places of shape (n, dimension) from others, shape (n, m)."""
-    square = (
-        np.sum(a * a, axis=1)[:, None] + np.sum(b * b, axis=1)[None] - 2.0 * a @ b.T
-    )
-    result: Floats = np.sqrt(np.maximum(square, 0.0))
-    return result
+    square: Floats = np.sum(a * a, axis=1)[:, None] + np.sum(b * b, axis=1)
+    square -= 2.0 * a @ b.T
+    np.maximum(square, 0.0, out=square)
+    return np.sqrt(square, out=square)
 
 
 def _correlate(distances: Floats) -> Floats:
     """Matern 5/2: twice differentiable, so that a kink shows as held-out error."""
-    scaled = np.sqrt(5.0) * distances / CORRELATION
-    result: Floats = (1.0 + scaled + scaled**2 / 3.0) * np.exp(-scaled)
+    scaled = distances * (np.sqrt(5.0) / CORRELATION)
+    result: Floats = scaled / 3.0
+    result += 1.0
+    result *= scaled
+    result += 1.0
+    result *= np.exp(-scaled)
     return result
