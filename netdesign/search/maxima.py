@@ -32,7 +32,6 @@ from netdesign.search.upper_bound import (
     bound_quantities,
     choose_questions,
     list_first_design,
-    list_neighbours,
 )
 from netdesign.words.message import say
 
@@ -40,8 +39,8 @@ MOST_PARAMETERS = 8
 # The first design sees features at least as wide at half their height, as a share of
 # a range; narrower ones may hide, and every result says so.
 RESOLVED_SHARE = 0.6
-# Batches of held-out cases that the model must predict well, in turn or at once, at the
-# places where it could be wrong most dearly, before the search ends.
+# Batches of held-out cases in turn that the model must predict well, at the places
+# where it could be wrong most dearly, before the search ends.
 _TESTS = 2
 # Quantities below this share of the largest one are bounded to the same absolute gap as
 # at that share. A small guy force is a difference of large ones: its numerical error is
@@ -221,9 +220,7 @@ class MaximaSearch:
         )
         is_held = (errors <= allowed)[:, list(bounds.deciding)]
         has_passed = bounds.is_closed and bool(np.all(is_held))
-        has_beside = not set(self._asked).isdisjoint(list_neighbours(bounds))
-        tests = 1 if has_beside else _TESTS - self._passed
-        self._passed = self._passed + tests if has_passed else 0
+        self._passed = self._passed + 1 if has_passed else 0
         self._inflations += [
             Inflation(place=np.array(point), ratio=np.minimum(ratio, _MOST_INFLATION))
             for point, ratio in zip(self.ask(), errors / allowed, strict=True)
@@ -274,8 +271,7 @@ class MaximaSearch:
 
     def _list_questions(self, bounds: Bounds) -> list[Point]:
         room = max(0, self.settings.max_cases - len(self.points))
-        tests = _TESTS - self._passed
-        return choose_questions(bounds, self.points, _BATCH, tests, room)
+        return choose_questions(bounds, self.points, _BATCH, room)
 
     @property
     def _is_tested(self) -> bool:

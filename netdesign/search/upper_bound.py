@@ -302,12 +302,9 @@ def list_first_design(dimension: int) -> tuple[Point, ...]:
 
 
 def choose_questions(
-    bounds: Bounds, points: Sequence[Point], batch: int, tests: int, room: int
+    bounds: Bounds, points: Sequence[Point], batch: int, room: int
 ) -> list[Point]:
     """Next cases: where a quantity could exceed its maximum; then tests of the bounds.
-
-    The neighbours of the maxima are among the first of either; other tests lie far
-    from all known cases.
 
     Parameters
     ----------
@@ -316,24 +313,21 @@ def choose_questions(
     points : sequence of Point
         These cases.
     batch : int
-        Most cases of a round beside neighbours, or of one test.
-    tests : int
-        That are asked for together, where no neighbour is left to ask for.
+        Most cases of a round; the neighbours of the maxima are asked for together.
     room : int
         Cases that may still be asked for.
     """
-    sampled = set(points)
-    chosen = [x for x in list_neighbours(bounds) if x not in sampled]
+    most = min(batch, room)
     if not bounds.is_closed:
         # the places that could exceed may all be known cases: then the best others
-        known = [*points, *chosen]
-        chosen += _pick(bounds, bounds.deciding, known, batch, 0.0, GRAIN) or _pick(
-            bounds, bounds.open, known, batch, -math.inf, _BESIDE
+        return _pick(bounds, bounds.deciding, points, most, 0.0, GRAIN) or _pick(
+            bounds, bounds.open, points, most, -math.inf, _BESIDE
         )
-    elif not chosen:
-        most = tests * batch
-        chosen = _pick(bounds, bounds.deciding, points, most, -math.inf, _TEST_APART)
-    return chosen[:room]
+    sampled = set(points)
+    beside = [x for x in _list_neighbours(bounds) if x not in sampled]
+    if beside:
+        return beside[:room]
+    return _pick(bounds, bounds.deciding, points, most, -math.inf, _TEST_APART)
 
 
 def _pick(
@@ -360,7 +354,7 @@ def _pick(
     return chosen
 
 
-def list_neighbours(bounds: Bounds) -> list[Point]:
+def _list_neighbours(bounds: Bounds) -> list[Point]:
     """Points just beside every maximum, along each axis: they tell if it is one."""
     asked: dict[Point, None] = {}
     for place in bounds.summits:

@@ -49,40 +49,24 @@ def test_first_design_holds_corners_centre_and_the_parts_between():
     assert len(list_first_design(6)) == 2**6 + 1 + 12 + 2**6
 
 
-BESIDE = [
-    (0.0625, 0.4375),
-    (0.0, 0.375),
-    (0.0, 0.5),
-    (0.4375, 1.0),
-    (0.5625, 1.0),
-    (0.5, 0.9375),
-]  # of the summits, in the box
-
-
-def ask(bounds, known, *, batch=6, tests=2, room=90):
-    return choose_questions(bounds, known, batch, tests, room)
-
-
-def test_where_a_quantity_could_exceed_is_asked_with_the_neighbours_and_apart():
-    chosen = ask(OPEN, [(0.0, 0.0)])
-    assert chosen == [*BESIDE, (0.25, 0.25), (0.75, 0.5)]
-    assert ask(OPEN, BESIDE) == [(0.25, 0.25), (0.75, 0.5)]
+def test_where_a_quantity_could_exceed_is_asked_first_and_apart():
+    chosen = choose_questions(OPEN, [(0.0, 0.0)], batch=6, room=90)
+    assert chosen == [(0.25, 0.25), (0.75, 0.5)]
 
 
 def test_where_all_that_could_exceed_is_known_the_like_of_it_is_asked():
-    known = [*BESIDE, (0.25, 0.25), (0.3125, 0.25), (0.75, 0.5)]
+    known = [(0.25, 0.25), (0.3125, 0.25), (0.75, 0.5)]
     negative = replace(OPEN, wanted=list_wanted(*WANTED, (-0.6, (0.75, 0.9375), 0)))
-    assert ask(negative, known) == [(0.75, 0.9375)]
+    assert choose_questions(negative, known, batch=6, room=90) == [(0.75, 0.9375)]
 
 
 def test_closed_bounds_are_tested_beside_their_maxima_inside_the_box():
-    chosen = ask(CLOSED, [(0.0, 0.5)], batch=2)
-    assert chosen == [point for point in BESIDE if point != (0.0, 0.5)]
-    assert ask(CLOSED, [(0.0, 0.5)], batch=2, room=3) == chosen[:3]
-
-
-def test_without_a_neighbour_all_tests_are_asked_at_once_far_from_known_cases():
-    far = [(0.25, 0.25), (0.75, 0.5), (0.75, 1.0)]
-    assert ask(CLOSED, BESIDE, batch=2, tests=1) == far[:2]
-    assert ask(CLOSED, BESIDE, batch=2, tests=2) == far
-    assert ask(CLOSED, [*BESIDE, (0.3125, 0.25)], batch=2) == far[1:]
+    chosen = choose_questions(CLOSED, [(0.0, 0.5)], batch=2, room=90)
+    assert chosen == [
+        (0.0625, 0.4375),
+        (0.0, 0.375),
+        (0.4375, 1.0),
+        (0.5625, 1.0),
+        (0.5, 0.9375),
+    ]
+    assert choose_questions(CLOSED, [(0.0, 0.5)], batch=2, room=3) == chosen[:3]
