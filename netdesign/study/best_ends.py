@@ -47,6 +47,7 @@ _PULLS = frozenset(("T_r", "T_b", "E_t"))  # symbols of what a rope brings to a 
 _MANY = 100  # posts: both ends of the row are far from each other
 _PARTS = 8  # of a range, among which is the value from which on a check passes
 _FindForces = Callable[[RowToCheck, NetRow, RowEnvelope], RowForces]
+_TakeOff = Callable[[RowForces], RowForces]
 _BETTER = 0.99  # a utilisation below this share of the worst one is told
 
 
@@ -107,7 +108,7 @@ class _Option:
 
     def place(self, share: float) -> float:
         """Value at a share of the way to the other end."""
-        return self.worst + share * (self.other - self.worst)
+        return _mix(self.worst, self.other, share)
 
     def show(self, value: float) -> Message:
         """Value in words, with its unit."""
@@ -169,10 +170,9 @@ class _BestEnds:
             return self.judged
         if check.verdict is Verdict.FAIL and self._are_posts_open:
             check = self._ease(lambda forces: forces, "assumed.by_posts")
-        if check.verdict is Verdict.FAIL and self._has_open_pull():
-            check = self._ease(_take_off_ropes, "assumed.by_ropes")
-        if check.verdict is Verdict.FAIL and _has_open_truss(self.row):
-            check = self._ease(take_off_truss, "assumed.by_stiffness")
+        for key, take_off in self._list_pulls():
+            if check.verdict is Verdict.FAIL:
+                check = self._ease(take_off, key)
         if check.verdict is Verdict.FAIL:
             check = check.ease(self._find_least())
         if check.verdict is not Verdict.FAIL and (deciding := self._tell()):
@@ -202,7 +202,14 @@ class _BestEnds:
         is_pulled = not _PULLS.isdisjoint(check.step_of)
         return is_pulled and (may_slide or self._are_sags_assumed)
 
-    def _ease(self, take_off: Callable[[RowForces], RowForces], key: str) -> Check:
+    def _list_pulls(self) -> Iterator[tuple[str, _TakeOff]]:
+        """What brings a pull to the member only by what is assumed without a range."""
+        if self._has_open_pull():
+            yield "assumed.by_ropes", _take_off_ropes
+        if _has_open_truss(self.row):
+            yield "assumed.by_stiffness", take_off_truss
+
+    def _ease(self, take_off: _TakeOff, key: str) -> Check:
         """Ease the check where it passes without the pull that an assumption brings."""
         check, low = self.judged.check, _find_low(self._judge(take_off(self.best)))
         worst = _rate(check.rating)
@@ -252,7 +259,7 @@ class _BestEnds:
         rated = [(each.rate(1.0), each) for each in options]
         least, option = min(rated, key=lambda each: each[0], default=(math.inf, None))
         if option is None or not least < _BETTER * worst:
-            return None
+            return self._tell_pull(worst)
         numbers: dict[str, Message | float] = {
             "name": option.assumed.name,
             "at": option.show(option.worst),
@@ -265,6 +272,14 @@ class _BestEnds:
         if option.other < option.worst:
             return say("check.assumed_decides_up_to", **numbers, bound=bound)
         return say("check.assumed_decides", **numbers, bound=bound)
+
+    def _tell_pull(self, worst: float) -> Message | None:
+        """Name what is assumed of ropes that lowers the utilisation, if it does."""
+        for key, take_off in self._list_pulls():
+            without = _rate(self._judge(take_off(self.judged.forces)))
+            if without < _BETTER * worst < math.inf:
+                return say(key, used=worst, without=without)
+        return None
 
     def _vary_statics(self) -> Iterator[_Option]:
         """Other ends of what is assumed of the row's statics, each alone."""
@@ -286,7 +301,7 @@ class _BestEnds:
         That is to the governing case, at the same value of all else.
         """
         values = read_values(self.row)
-        values[key] = worst + share * (other - worst)
+        values[key] = _mix(worst, other, share)
         if key == "guy_count":
             splay = self.task.row.find_assumed("guy_splay")
             if splay is not None:
@@ -320,7 +335,7 @@ class _BestEnds:
         """Utilisation at another value, in proportion to that of the governing case."""
         here, there = (
             self._rate(self._find_at(self.row, {key: value}))
-            for value in (worst, worst + share * (other - worst))
+            for value in (worst, _mix(worst, other, share))
         )
         return _scale(self.judged.rating, here, there)
 
@@ -377,6 +392,11 @@ class _BestEnds:
         at = replace(task, site=replace(task.site, ranges=ranges))
         solved = _wrap(task.solved, result)
         return find(at, row, solved.on_layout(row.layout))
+
+
+def _mix(start: float, end: float, share: float) -> float:
+    """Value a share of the way from start to end; exact at both, where it is known."""
+    return (1.0 - share) * start + share * end
 
 
 def _name(row: NetRow) -> object:

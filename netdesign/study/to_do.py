@@ -19,7 +19,7 @@ from netdesign.study.scopes import STRUCTURE, is_of_structure
 from netdesign.words.catalogue import as_given, name_check, name_member, name_mode
 from netdesign.words.message import Message, say
 
-WHO: tuple[Who, ...] = ("office", "ground", "supplier", "site")
+WHO: tuple[str, ...] = ("office", "ground", "supplier", "site", "all")
 MOST_LINES = 10
 _LOWERS = "check.assumed_lowers"  # neither end of a range passes
 _TOGETHER = "check.assumed_together"  # the best ends of all ranges pass
@@ -51,14 +51,14 @@ class ToDo:
     ----------
     who : str
         Who has the answer: ``office``, ``ground`` (the geotechnical engineer),
-        ``supplier`` or ``site``.
+        ``supplier``, ``site``; ``all`` of the line that counts the others.
     text : Message
         What is needed, with its number.
     rows : tuple of str
         Ids of the net rows that need it, in the order of the study.
     """
 
-    who: Who
+    who: str
     text: Message
     rows: tuple[str, ...]
 
@@ -94,7 +94,7 @@ def list_to_do(study: Study, most: int | None = MOST_LINES) -> tuple[ToDo, ...]:
     rest = every[most - 1 :]  # the last line counts them
     left = {row for line in rest for row in line.rows}
     ids = tuple(row.id for row in study.rows if row.id in left)
-    more = ToDo(who="office", text=say("to_do.more", count=len(rest)), rows=ids)
+    more = ToDo(who="all", text=say("to_do.more", count=len(rest)), rows=ids)
     return (*every[: most - 1], more)
 
 

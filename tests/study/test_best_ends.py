@@ -10,6 +10,7 @@ from netdesign.envelope.ranges import Interval, Ranges
 from netdesign.outcome import Verdict
 from netdesign.panel.inputs import STIFFNESSES, list_panels
 from netdesign.site.assumed import assume
+from netdesign.structure.splay import Guys
 from netdesign.study.cases import search_site
 from netdesign.study.judge import judge_row
 from netdesign.study.row_to_check import (
@@ -154,6 +155,31 @@ def test_statics_that_decide_are_told_by_all_cases():
         values[column] = math.radians(value) if "tilt" in column else value
         alone = index(judge(place_variant(row, values), (0.05, 0.05)))[key]
         assert alone.utilisation_band[1] <= 1.0 + 1e-3, key
+
+
+@pytest.mark.parametrize("key", [KEYS[0], KEYS[1], KEYS[2], "guy_splay"])
+def test_a_value_of_the_statics_that_decides_alone_is_told(key):
+    """Whatever its ends are: those of the splay are no sums of each other in binary."""
+    guys = Guys(count=2, splay=math.radians(17.0), are_shared=True)
+
+    def judge_held(held):
+        row = build_row("R1", resistances=resist(held), guys=guys)
+        row = assume_all(row, [key])
+        return [index(judge(one, (0.05, 0.05))) for one in (row, *list_variants(row))]
+
+    _, low, high = judge_held(1e5)
+    used = {
+        name: sorted(checks[name].utilisation_band[1] for checks in (low, high))
+        for name in low
+        if name.endswith("tendon")
+    }
+    name = max(used, key=lambda each: used[each][1] / used[each][0])
+    least, most = used[name]
+    assert most > 1.03 * least
+    check = judge_held(1e5 * math.sqrt(least * most))[0][name]
+    told = {one.message.key: one.message.arguments for one in check.open}
+    deciding = told.get("check.assumed_decides") or told["check.assumed_decides_up_to"]
+    assert deciding["name"].key.endswith(key)
 
 
 PANELS = list_panels(
