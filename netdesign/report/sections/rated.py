@@ -184,10 +184,13 @@ def sign(verdict: Verdict, words: Words) -> Badge:
     return Badge(show_verdict(verdict, words), "sign")
 
 
-def show_rated(rated: Rated | None, words: Words) -> Content:
+def show_rated(
+    rated: Rated | None, words: Words, *, has_guide: bool = True
+) -> Content:
     """Sign, utilisation, that of the guideline, and a bar; else the force alone.
 
-    A force that was calculated is shown where no resistance is known.
+    A force that was calculated is shown where no resistance is known. ``has_guide``
+    is false where another column has the number of the guideline.
     """
     if rated is None:
         return (Piece(MISSING, "dash"),)
@@ -196,7 +199,8 @@ def show_rated(rated: Rated | None, words: Words) -> Content:
         shown = Piece(show_used(rated.check, rated.used, words), "ratio")
         bar = draw_bar(rated.used, rated.by_guideline, is_failed=_fails(rated))
         guide = ""
-        if rated.by_guideline is not None and rated.used < _HAS_ROOM:
+        has_room = has_guide and rated.used < _HAS_ROOM
+        if rated.by_guideline is not None and has_room:
             guide = words.show_number("utilisation", rated.by_guideline)
         return (first, shown, Piece(f" {guide}", "beside"), bar)
     demand = rated.check.demand_kN
@@ -222,10 +226,10 @@ def is_span(check: Check) -> bool:
     return bool(check.eased_low) and _HAS_ROOM <= (check.used or 0.0) < math.inf
 
 
-def show_answer(rated: Rated, words: Words) -> Content:
+def show_answer(rated: Rated, words: Words, *, has_guide: bool = True) -> Content:
     """The same beside its force: without a resistance, what it needs."""
     if rated.used is not None:
-        return show_rated(rated, words)
+        return show_rated(rated, words, has_guide=has_guide)
     told = show_need(rated.check, words) or words(f"verdict.{rated.verdict}").lower()
     return (sign(rated.verdict, words), Piece(told, has_symbols=True))
 

@@ -20,6 +20,7 @@ from netdesign.report.blocks import (
     force_cell,
     given_cell,
     key_columns,
+    number_cell,
     section,
     strong,
     symbols,
@@ -179,17 +180,19 @@ def _letter_notes(lines: Sequence[AnchorLine]) -> dict[str, str]:
     return {key: "abcdefgh"[place] for place, key in enumerate(keys)}
 
 
-_RIGHT = ("count", "demand", "resistance", "dip", "length", "proof")
+_RIGHT = ("count", "demand", "resistance", "guideline", "dip", "length", "proof")
 
 
 def _tabulate(
     lines: Sequence[AnchorLine], letters: dict[str, str], words: Words
 ) -> Table:
-    keys = ("row", "anchor", "type", *_RIGHT[:3], "used", *_RIGHT[3:], "notes")
+    beside = ("used", "guideline")
+    keys = ("row", "anchor", "type", *_RIGHT[:3], *beside, *_RIGHT[4:], "notes")
     rows, before = [], ""
     for line in lines:
-        name = show_text(line.row)
+        name, rated = show_text(line.row), line.rated
         demand = force_cell(words, line.demand_kN)
+        answer = show_answer(rated, words, has_guide=False)
         rows.append(
             (
                 Cell(text=name, content=(Piece("" if line.row == before else name),)),
@@ -197,8 +200,9 @@ def _tabulate(
                 text_cell(line.type_id),
                 _count_cell(line.count, words),
                 replace(demand, content=strong(demand.text)),
-                force_cell(words, line.rated.check.resistance_kN),
-                used_cell(line.rated, words, show_answer(line.rated, words)),
+                force_cell(words, rated.check.resistance_kN),
+                used_cell(rated, words, answer),
+                number_cell(words, "utilisation", rated.by_guideline),
                 text_cell(show_dips(line.dips_deg, words)),
                 fixed_cell(words, line.length_m, 1),
                 _proof_cell(line, words),
