@@ -180,9 +180,13 @@ def _is_meant(reading: Reading) -> bool:
 
 
 def is_typed(reading: Reading) -> bool:
-    """A number stands in the cell; it was not worked out from others."""
-    is_given = reading.state == "given" and reading.derivation is None
-    return is_given and isinstance(reading.value, float)
+    """A number stands in the cell; it was not worked out from others.
+
+    A slack is that of the sag in its own cell.
+    """
+    how = reading.derivation
+    is_own = how is None or how.key == "office.slack_of_sag"
+    return is_own and reading.state == "given" and isinstance(reading.value, float)
 
 
 def _doubt_alone(reading: Reading) -> Message | None:

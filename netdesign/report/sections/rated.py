@@ -184,9 +184,7 @@ def sign(verdict: Verdict, words: Words) -> Badge:
     return Badge(show_verdict(verdict, words), "sign")
 
 
-def show_rated(
-    rated: Rated | None, words: Words, *, has_guide: bool = True
-) -> Content:
+def show_rated(rated: Rated | None, words: Words, *, has_guide: bool = True) -> Content:
     """Sign, utilisation, that of the guideline, and a bar; else the force alone.
 
     A force that was calculated is shown where no resistance is known. ``has_guide``

@@ -430,9 +430,12 @@ def _list_soils(lines: Sequence[Row], log: _Log) -> list[Line]:
 def _add_dips(types: list[Line], nets: Sequence[Row], log: _Log) -> None:
     """Give each anchor type its flattest dip, of the axes in all rows that name it."""
     dips: dict[str, dict[float, list[Reading]]] = {}
+    without: dict[str, list[Reading]] = {}  # ids of the rows that give no axis
     for line in nets:
         for member, key in _AXES.items():
             axis, slope = line[key], line["slope_angle"]
+            if axis.state == "blank":
+                without.setdefault(line[member].word, []).append(line["id"])
             if axis.state == slope.state == "given" and line[member].word:
                 dip = round(from_si(find_dip(axis.si, slope.si, member), "deg"), 1)
                 of_type = dips.setdefault(line[member].word, {})
@@ -444,6 +447,7 @@ def _add_dips(types: list[Line], nets: Sequence[Row], log: _Log) -> None:
         for anchor_type in types:
             if anchor_type.get("id") == name:
                 anchor_type["dip"] = flattest
+        log.change(say("rewrite.dip_for_all"), *without.get(name, ()))
         for dip, axes in by_dip.items():
             key = "rewrite.dip" if dip == flattest else "rewrite.flattest"
             log.change(say(key), *axes)

@@ -29,6 +29,20 @@ def find_line(tables, table, key):
     return next(one for one in tables[table] if one["id"] == key)
 
 
+@each("seed", range(3))
+def test_a_sag_typed_as_a_share_of_one_is_asked_about(tmp_path, seed):
+    tables = draw_tables(seed)
+    asked = []
+    for factor in (1.0, 0.01):
+        for net in tables["net_types"]:
+            net["slack"] = factor * (11.0 + seed)
+        path = tmp_path / f"{factor}.xlsx"
+        write_site(path, tables, "en", {("net_types", "slack"): "sag"})
+        asked.append([len(row.questions) for row in read_site(path).rows])
+    as_percent, as_share = asked
+    assert all(a < b for a, b in zip(as_percent, as_share, strict=True))
+
+
 @each("seed, language", CASES)
 def test_a_row_has_what_its_line_and_its_net_type_say(tmp_path, seed, language):
     tables = draw_tables(seed)

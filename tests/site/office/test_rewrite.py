@@ -144,6 +144,20 @@ def test_a_dip_that_no_bore_has_is_listed(tmp_path, axis):
     assert len(site.rows) == len(lines["Nets"])
 
 
+def test_rows_that_take_the_bore_of_another_row_are_named(tmp_path):
+    lines = copy.deepcopy(load_example())
+    for row in lines["Nets"]:
+        row |= {"foot_axis": 3.5, "uphill_axis": -4.5, "downhill_axis": 62.5}
+    first, *others = lines["Nets"]
+    of_type = [x for x in others if x["downhill_anchor"] == first["downhill_anchor"]]
+    keys = [[x.arguments["how"].key for x in write_again(tmp_path, lines)[0].done]]
+    assert of_type
+    del first["downhill_axis"]
+    made, _ = write_again(tmp_path, lines)
+    keys.append([one.arguments["how"].key for one in made.done])
+    assert ["rewrite.dip_for_all" in each for each in keys] == [False, True]
+
+
 @each("language", LANGUAGES)
 def test_it_is_refused_with_the_command_that_writes_it_again(tmp_path, language):
     path = write_old(tmp_path / "my old site.xlsx", load_example(), language)
