@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 from types import MappingProxyType
 
@@ -113,32 +114,19 @@ def _require_sliding(scene: Scene, name: str) -> None:
     raise ModelError(say("envelope.not_sliding", kind=kind, rule=rule))
 
 
+_Angle = partial(Parameter, show=given_degree_from_radian, read=radian_from_degree)
 # In the order in which they enter a scene: height needs the slope angle, glide the
 # thickness.
 _ROWS = (
     Parameter(name="density", key="density_kg_m3", put=_put_snow("density")),
-    Parameter(
+    _Angle(
         name="friction_angle",
         key="friction_deg",
         put=_put_net("friction_angle"),
-        show=given_degree_from_radian,
-        read=radian_from_degree,
         power=-4.0,  # the more friction, the more of the net sticks, the less it does
     ),
-    Parameter(
-        name="inclination",
-        key="inclination_deg",
-        put=_put_net("inclination"),
-        show=given_degree_from_radian,
-        read=radian_from_degree,
-    ),
-    Parameter(
-        name="slope_angle",
-        key="slope_deg",
-        put=_put_snow("slope_angle"),
-        show=given_degree_from_radian,
-        read=radian_from_degree,
-    ),
+    _Angle(name="inclination", key="inclination_deg", put=_put_net("inclination")),
+    _Angle(name="slope_angle", key="slope_deg", put=_put_snow("slope_angle")),
     Parameter(name="thickness", key="thickness_m", put=_put_thickness),
     Parameter(name="snow_height", key="height_vertical_m", put=_put_height),
     Parameter(

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import chain
 from typing import NamedTuple
 
@@ -83,9 +84,19 @@ def bound_lifted(
     values = _measure(layouts, [result for _, result in solved])
     tolerance = np.full(values.shape[1], settings.gap * np.abs(values[:, 1:]).max())
     tolerance[0] = settings.gap  # of a sine
-    if not _bound(places, values[:, :1], tolerance[:1])[0] > 0.0:
+    bound = partial(
+        bound_quantities,
+        fit_surrogate(places, values, NOISE * tolerance),
+        values,
+        best=np.maximum(values.max(axis=0), 0.0),
+        tolerance=tolerance,
+        deciding=(),
+        lattice=Lattice(places.shape[1]),
+        inflations=(),
+    )
+    if not bound(watched=(0,)).upper[0] > 0.0:
         return {}
-    upper = _bound(places, values[:, 1:], tolerance[1:])
+    upper = bound(watched=range(values.shape[1])).upper.tolist()[1:]
     by_member = {
         str(member): force
         for members, force in zip(_LIFTED, upper, strict=False)
@@ -94,22 +105,6 @@ def bound_lifted(
     return by_member | {
         name_in_panel(member): force for member, force in by_member.items()
     }
-
-
-def _bound(places: Floats, values: Floats, tolerance: Floats) -> list[float]:
-    """Upper bounds of quantities whose values are known at some places."""
-    bounds = bound_quantities(
-        fit_surrogate(places, values, NOISE * tolerance),
-        values,
-        best=np.maximum(values.max(axis=0), 0.0),
-        tolerance=tolerance,
-        watched=range(values.shape[1]),
-        deciding=(),
-        lattice=Lattice(places.shape[1]),
-        inflations=(),
-    )
-    upper: list[float] = bounds.upper.tolist()
-    return upper
 
 
 def _measure(layouts: Sequence[SupportLayout], results: Sequence[CaseResult]) -> Floats:

@@ -339,8 +339,7 @@ def _set_tolerance(
     scale = np.maximum(best, _SMALL_SHARE * best.max())
     closest = [watched.get(q, Watched()).resolution for q in range(values.shape[1])]
     tolerance = np.maximum(gap * scale, closest)
-    result: Floats = np.maximum(tolerance, np.finfo(float).tiny)
-    return result
+    return np.asarray(np.maximum(tolerance, np.finfo(float).tiny))
 
 
 def _find_governing(points: Sequence[Point], values: Floats) -> tuple[int, ...]:

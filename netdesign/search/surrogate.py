@@ -126,8 +126,7 @@ class Surrogate:
         """Most by which errors of the values move the mean, eq. (M3a)."""
         rough = np.flatnonzero(self.doubts.any(axis=1))
         shares = carried[:, rough] + in_trend @ self._trend_of_cases[:, rough]
-        result: Floats = np.abs(shares) @ self.doubts[rough]
-        return result
+        return np.asarray(np.abs(shares) @ self.doubts[rough])
 
     def _fade(self, at: Floats, near: Floats) -> Floats:
         """Largest held-out score around each place, eq. (M5)."""
@@ -225,8 +224,7 @@ def _find_spacings(distances: Floats, *, is_dense: bool) -> Floats:
     if is_dense:
         return np.full(len(distances), np.inf)
     to_others = distances + np.diag(np.full(len(distances), np.inf))
-    result: Floats = to_others.min(axis=1)
-    return result
+    return np.asarray(to_others.min(axis=1))
 
 
 def _find_far(scores: Floats, spacings: Floats) -> tuple[Floats, Floats]:
@@ -311,9 +309,4 @@ def measure_distances(a: Floats, b: Floats) -> Floats:
 def _correlate(distances: Floats) -> Floats:
     """Matern 5/2: twice differentiable, so that a kink shows as held-out error."""
     scaled = distances * (np.sqrt(5.0) / CORRELATION)
-    result: Floats = scaled / 3.0
-    result += 1.0
-    result *= scaled
-    result += 1.0
-    result *= np.exp(-scaled)
-    return result
+    return np.asarray((1.0 + scaled * (1.0 + scaled / 3.0)) * np.exp(-scaled))

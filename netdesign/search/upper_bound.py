@@ -213,8 +213,7 @@ def _close_above(upper: Floats, best: Floats, margin: Floats) -> Floats:
 
 def _settle(places: Floats) -> Floats:
     """Nearest points whose coordinates are multiples of the grain."""
-    result: Floats = np.round(places / GRAIN) * GRAIN
-    return result
+    return np.asarray(np.round(places / GRAIN) * GRAIN)
 
 
 def _inflate(at: Floats, around: Floats, wider: Floats) -> Floats:
@@ -231,8 +230,7 @@ def _list_products(axis: Floats, dimension: int) -> Floats:
     places = np.indices((axis.size,) * dimension).reshape(
         dimension, axis.size**dimension
     )
-    result: Floats = axis[places.T]
-    return result
+    return np.asarray(axis[places.T])
 
 
 def _surround(places: Floats) -> Floats:

@@ -274,10 +274,10 @@ class _BestEnds:
         return say("check.assumed_decides", **numbers, bound=bound)
 
     def _tell_pull(self, worst: float) -> Message | None:
-        """Name what is assumed of ropes that lowers the utilisation, if it does."""
+        """Name what is assumed of ropes without which the check passes."""
         for key, take_off in self._list_pulls():
             without = _rate(self._judge(take_off(self.judged.forces)))
-            if without < _BETTER * worst < math.inf:
+            if without <= 1.0 and worst < math.inf:
                 return say(key, used=worst, without=without)
         return None
 

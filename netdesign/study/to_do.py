@@ -143,9 +143,8 @@ def _sort(
     if point.kind is OpenKind.ASSUMED_DECIDES:
         deciding = _name_deciding(message)
         holder = _find_holder(deciding) or "supplier"
-        if message.key == _LOWERS:
-            return holder, "lowers"
-        return holder, "decides", deciding
+        key = ("lowers",) if message.key == _LOWERS else ("decides", deciding)
+        return holder, *key
     if is_missing and check.mode == "connection":
         return "supplier", "links"
     if message.key == _HEAD:

@@ -197,8 +197,7 @@ def show_rated(rated: Rated | None, words: Words, *, has_guide: bool = True) -> 
         shown = Piece(show_used(rated.check, rated.used, words), "ratio")
         bar = draw_bar(rated.used, rated.by_guideline, is_failed=_fails(rated))
         guide = ""
-        has_room = has_guide and rated.used < _HAS_ROOM
-        if rated.by_guideline is not None and has_room:
+        if rated.by_guideline is not None and has_guide and rated.used < _HAS_ROOM:
             guide = words.show_number("utilisation", rated.by_guideline)
         return (first, shown, Piece(f" {guide}", "beside"), bar)
     demand = rated.check.demand_kN

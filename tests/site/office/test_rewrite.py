@@ -147,7 +147,7 @@ def test_a_dip_that_no_bore_has_is_listed(tmp_path, axis):
 def test_rows_that_take_the_bore_of_another_row_are_named(tmp_path):
     lines = copy.deepcopy(load_example())
     for row in lines["Nets"]:
-        row |= {"foot_axis": 3.5, "uphill_axis": -4.5, "downhill_axis": 62.5}
+        row |= {"foot_axis": 57.0, "uphill_axis": 58.5, "downhill_axis": 32.5}
     first, *others = lines["Nets"]
     of_type = [x for x in others if x["downhill_anchor"] == first["downhill_anchor"]]
     keys = [[x.arguments["how"].key for x in write_again(tmp_path, lines)[0].done]]
