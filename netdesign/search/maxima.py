@@ -327,8 +327,7 @@ def _measure_errors(values: Floats, mean: Floats, watched: Sequence[int]) -> Flo
 def _find_best(values: Floats, watched: Mapping[int, Watched]) -> Floats:
     """Least value by which a quantity matters; a negative force is none."""
     floors = [watched.get(q, Watched()).floor for q in range(values.shape[1])]
-    result: Floats = np.maximum(values.max(axis=0), np.maximum(floors, 0.0))
-    return result
+    return np.asarray(np.maximum(values.max(axis=0), np.maximum(floors, 0.0)))
 
 
 def _set_tolerance(

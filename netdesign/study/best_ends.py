@@ -175,11 +175,8 @@ class _BestEnds:
                 check = self._ease(take_off, key)
         if check.verdict is Verdict.FAIL:
             check = check.ease(self._find_least())
-        if check.verdict is not Verdict.FAIL:
-            is_told = check.has_open(OpenKind.ASSUMED_DECIDES)
-            deciding = self._tell() or (None if is_told else self._tell_pull())
-            told = (deciding,) if deciding else ()
-            check = check.with_open(OpenKind.ASSUMED_DECIDES, *told)
+        if check.verdict is not Verdict.FAIL and (deciding := self._tell()):
+            check = check.with_open(OpenKind.ASSUMED_DECIDES, deciding)
         return replace(self.judged, rated=check)
 
     @property
@@ -262,7 +259,7 @@ class _BestEnds:
         rated = [(each.rate(1.0), each) for each in options]
         least, option = min(rated, key=lambda each: each[0], default=(math.inf, None))
         if option is None or not least < _BETTER * worst:
-            return None
+            return self._tell_pull(worst)
         numbers: dict[str, Message | float] = {
             "name": option.assumed.name,
             "at": option.show(option.worst),
@@ -276,12 +273,15 @@ class _BestEnds:
             return say("check.assumed_decides_up_to", **numbers, bound=bound)
         return say("check.assumed_decides", **numbers, bound=bound)
 
-    def _tell_pull(self) -> Message | None:
-        """Name what is assumed of ropes without which the check passes."""
-        worst = _rate(self.judged.rating)
+    def _tell_pull(self, worst: float) -> Message | None:
+        """Name what is assumed of ropes without which the check passes.
+
+        Of a check that failed beside it that is told already.
+        """
         for key, take_off in self._list_pulls():
             without = _rate(self._judge(take_off(self.judged.forces)))
-            if without <= 1.0 and worst < math.inf:
+            fails = self.judged.check.verdict is Verdict.FAIL
+            if without <= 1.0 and worst < math.inf and not fails:
                 return say(key, used=worst, without=without)
         return None
 
