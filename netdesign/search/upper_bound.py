@@ -26,7 +26,7 @@ _LATTICE = {0: 1, 1: 65, 2: 17, 3: 9, 4: 5, 5: 4, 6: 4, 7: 3, 8: 3}
 CERTAINTY = 3.0  # standard errors between the model's mean and the upper bound
 NOISE = 0.25  # of a tolerance: what cases may jump by from mesh to mesh
 _WANTED = 100  # highest lattice points per quantity that may be asked for
-_STARTS = 4  # highest lattice points per quantity that are followed uphill
+_STARTS = 3  # highest lattice points per quantity that are followed uphill
 _FINEST_STEP = 1.0 / 128.0
 _MARGIN = 0.02  # of a tolerance: what following the bound uphill may fall short by
 
