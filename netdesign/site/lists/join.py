@@ -134,10 +134,13 @@ def map_fields(plan: SheetPlan) -> Mapping[str, Field]:
 def _plan(becomes: str, titles: Sequence[Title]) -> SheetPlan:
     """Columns that a sheet may have; rows may have those of their nets, too."""
     plan, nets = load_plan(becomes), map_fields(load_plan("net_types"))
-    if becomes != "rows" or all(x.field and x.field.table == "rows" for x in titles):
+    if becomes != "rows":
         return plan
-    named = replace(map_fields(plan)["net_type"], required=False)
-    fields = {**nets, **map_fields(plan), "net_type": named}
+    of_rows = [x.field for x in titles if x.field and x.field.table == "rows"]
+    fields = {**map_fields(plan), **{field.key: field for field in of_rows}}
+    if len(of_rows) < len(titles):
+        named = replace(fields["net_type"], required=False)
+        fields = {**nets, **fields, "net_type": named}
     return replace(plan, fields=tuple(fields.values()))
 
 

@@ -9,6 +9,7 @@ from functools import cache
 from netdesign.site.columns.all_tables import (
     IGNORE,
     UNANSWERED,
+    find_quantity,
     load_old_plans,
 )
 from netdesign.site.columns.fields import Field, normalise, normalise_unit
@@ -20,6 +21,7 @@ from netdesign.site.columns.office import (
     name_measure,
 )
 from netdesign.words.catalogue import LANGUAGES, Language
+from netdesign.words.message import say
 
 # Tables that a sheet of a list may become, with the sheets that its columns go to.
 GROUPS: Mapping[str, tuple[str, ...]] = {
@@ -95,15 +97,27 @@ class Target:
 def list_targets(becomes: str) -> tuple[Target, ...]:
     """Columns that the headings of a sheet may mean, by the table that it becomes.
 
-    A row names its net type: its list has no other column for that.
+    A row names its net type: its list has no other column for that. Of its length
+    its posts are counted.
     """
-    return tuple(
+    columns = tuple(
         Target(column=column, field=_add_names(column, measure), measure=measure)
         for table in GROUPS[becomes]
         for column in load_columns(table)
         if (becomes, table, column.field.key) != ("rows", "net_types", "id")
         for measure in (list_measures(column.choice) if column.choice else ("",))
     )
+    length = find_row_length()
+    of_length = Target(column=length, field=length.field)
+    return (*columns, of_length) if becomes == "rows" else columns
+
+
+@cache
+def find_row_length() -> Column:
+    """Length of a row, which lists have and the input workbook has not."""
+    name = say("column.Nets.row_length")
+    field = replace(find_quantity("Nets", "row_length"), table="rows", named=name)
+    return Column(field=field, has="office", texts={}, measured={})
 
 
 def _add_names(column: Column, measure: str) -> Field:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import chain
@@ -77,6 +78,20 @@ def _turn_sag(sag: Reading) -> Reading:
     return replace(worked, span=None if sag.span is None else (low, high))
 
 
+def _count_posts(line: Row) -> Reading:
+    """Posts of a row; where a list gives its length alone, those that stand on it."""
+    count, spacing = line["post_count"], line["post_spacing"]
+    length = line.get("row_length")
+    if length is None or not length.given_si or not spacing.given_si:
+        return count
+    if count.state != "blank":
+        return count
+    posts = max(2, 1 + math.floor(length.si / spacing.si + 1e-6))
+    how = say("office.posts_of_length", length=length.si, spacing=spacing.si)
+    worked = work_out(length, count.field, float(posts), how)
+    return replace(worked, field=count.field)
+
+
 def join_rows(
     lines: Sequence[Row],
     nets: Mapping[str, Row],
@@ -107,6 +122,7 @@ def join_rows(
                 **line,
                 **net,
                 "id": line["id"],
+                "post_count": _count_posts(line),
                 "glide_factor": replace(glide, value="free") if glide.word else glide,
                 "design_life": project["design_life"],
             }

@@ -243,3 +243,24 @@ def test_a_net_of_several_rows_is_not_changed_for_one_of_them(tmp_path):
     with pytest.raises(SiteDataError) as refused:
         read_site(tmp_path / TYROL.file, change={built.rows[0].id: {"post_tilt": 13.7}})
     assert [one.rule.key for one in refused.value.findings] == ["frames.shared"]
+
+
+@pytest.mark.parametrize(("unit", "scale"), [("m", 1.0), ("cm", 100.0)])
+def test_the_posts_of_a_row_are_those_that_stand_on_its_length(tmp_path, unit, scale):
+    """A part of a bay at the end has no post: fewer posts ask more of their anchors."""
+    draw = random.Random(unit)
+    drawn = [(draw.randint(2, 14), draw.choice([0.0, 0.3, 0.9])) for _ in range(6)]
+    lines = [
+        f"W{k};36,5;3,3;1,9;3,0;3,6;{scale * 3.6 * (bays + part):.2f}".replace(".", ",")
+        for k, (bays, part) in enumerate(drawn)
+    ]
+    path = tmp_path / "werke.csv"
+    headings = "Reihe;Hangneigung [°];Schneehöhe lotrecht [m];Gleitfaktor N;D_K [m]"
+    heading = f"{headings};Stützenabstand [m];Reihenlänge [{unit}]"
+    path.write_text("\n".join([heading, *lines]), encoding="utf-8")
+    text, missing = write_list_map(path)
+    assert not missing
+    name_map(path).write_text(text, encoding="utf-8")
+    rows = read_site(path).rows
+    assert [row.post_count for row in rows] == [1 + bays for bays, _ in drawn]
+    assert all(row.find_assumed("post_count") is None for row in rows)
