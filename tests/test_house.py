@@ -10,8 +10,8 @@ LONGEST_FUNCTION = 45  # from def to end, without its docstring
 LONGEST_MODULE = 500
 # Of the day, to be lowered with every cut: modules, and lines with code (no blank,
 # comment, docstring or import). The core is all but the add-ons.
-MODULES, LINES = 307, 41_005
-CORE_MODULES, CORE_LINES = 233, 29_671
+MODULES, LINES = 307, 41_010
+CORE_MODULES, CORE_LINES = 233, 29_676
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 

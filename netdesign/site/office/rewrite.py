@@ -29,6 +29,7 @@ from netdesign.site.columns.fields import (
 )
 from netdesign.site.columns.office import is_heading, load_columns, load_text
 from netdesign.site.declared_sheet import split_replacement
+from netdesign.site.office.rows import count_posts
 from netdesign.site.office.sheets import is_old
 from netdesign.site.readings import Reading, Row, read_cell
 from netdesign.site.tables import find_table, read_rows
@@ -339,9 +340,13 @@ def _rewrite_snow(line: Row, ranged: Row, log: _Log, *, is_vertical: bool) -> Li
 
 
 def _rewrite_words(line: Row, log: _Log) -> Line:
-    """Ground and gap of a row that are now words, or a number, of other columns."""
+    """Ground, gap and length of a row that are now in other columns."""
     law, row_end, neighbour = line["ground_law"], line["row_end"], line["neighbour"]
     words: Line = {}
+    length, spacing = line["row_length"], line["post_spacing"].given_si
+    if length.given_si and spacing and not _is_typed(line["post_count"]):
+        log.change(say("rewrite.posts"), length)
+        words["post_count"] = count_posts(length.given_si, spacing)
     if law.word == "free":
         log.change(say("rewrite.glide_cell"), law)
         words["glide_factor"] = "free"

@@ -78,6 +78,11 @@ def _turn_sag(sag: Reading) -> Reading:
     return replace(worked, span=None if sag.span is None else (low, high))
 
 
+def count_posts(length: float, spacing: float) -> int:
+    """Posts that stand on the length of a row [m]: a part of a bay has none."""
+    return max(2, 1 + math.floor(length / spacing + 1e-6))
+
+
 def _count_posts(line: Row) -> Reading:
     """Posts of a row; where a list gives its length alone, those that stand on it."""
     count, spacing = line["post_count"], line["post_spacing"]
@@ -86,10 +91,9 @@ def _count_posts(line: Row) -> Reading:
         return count
     if count.state != "blank":
         return count
-    posts = max(2, 1 + math.floor(length.si / spacing.si + 1e-6))
+    posts = float(count_posts(length.si, spacing.si))
     how = say("office.posts_of_length", length=length.si, spacing=spacing.si)
-    worked = work_out(length, count.field, float(posts), how)
-    return replace(worked, field=count.field)
+    return replace(work_out(length, count.field, posts, how), field=count.field)
 
 
 def join_rows(

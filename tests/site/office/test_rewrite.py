@@ -144,6 +144,16 @@ def test_a_dip_that_no_bore_has_is_listed(tmp_path, axis):
     assert len(site.rows) == len(lines["Nets"])
 
 
+def test_the_length_of_a_row_becomes_its_posts(tmp_path):
+    lines = copy.deepcopy(load_example())
+    counts = [row.pop("post_count") for row in lines["Nets"]]
+    for row, count in zip(lines["Nets"], counts, strict=True):
+        row["row_length"] = (count - 0.4) * row["post_spacing"]
+    made, site = write_again(tmp_path, lines)
+    assert [row.post_count for row in site.rows] == counts
+    assert "rewrite.posts" in [one.arguments["how"].key for one in made.done]
+
+
 def test_rows_that_take_the_bore_of_another_row_are_named(tmp_path):
     lines = copy.deepcopy(load_example())
     for row in lines["Nets"]:
