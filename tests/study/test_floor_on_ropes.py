@@ -56,13 +56,17 @@ def take_alone(result, place):
     return replace(result, panel=alone)
 
 
+def draw_assumed(seed, mid):
+    """Draws of a seed, what solves its cases, and all panels that may be built."""
+    solve, _, spacing = draw_case(seed)
+    return random.Random(seed), solve, assume_all(spacing, mid)
+
+
 @each("mid", [False, True])
 @each("seed", range(40, 50))
 def test_each_panel_that_may_be_built_is_raised_as_if_it_were_given(seed, mid):
     """The force of each rope is that of the worst of them: H and T by one factor."""
-    draw = random.Random(seed)
-    solve, _, spacing = draw_case(seed)
-    panels = assume_all(spacing, mid)
+    draw, solve, panels = draw_assumed(seed, mid)
     results = [solve(panels, draw.uniform(0.6, 1.3)) for _ in range(3)]
     if len(list_panels(results)) < len(results):
         pytest.skip("a case without panels")
@@ -87,9 +91,7 @@ def test_each_panel_that_may_be_built_is_raised_as_if_it_were_given(seed, mid):
 @each("seed", range(50, 56))
 def test_cases_at_the_ends_of_a_range_are_raised_as_if_each_end_were_typed(seed, mid):
     """No typed density asks more of a rope, nor pulls more on a head."""
-    draw = random.Random(seed)
-    solve, _, spacing = draw_case(seed)
-    panels = assume_all(spacing, mid)
+    draw, solve, panels = draw_assumed(seed, mid)
     shares = (0.6, draw.uniform(0.7, 1.1), 1.3)
     results = [
         replace(one, case=replace(one.case, density=share))
@@ -97,7 +99,7 @@ def test_cases_at_the_ends_of_a_range_are_raised_as_if_each_end_were_typed(seed,
     ]
     if len(list_panels(results)) < len(results):
         pytest.skip("a case without panels")
-    heads = read_heads(spacing, results)
+    heads = read_heads(panels[0].post_spacing, results)
     head = draw.uniform(0.5, 2.5) * float(np.hypot(*heads.pulls).max())
     floor = make_floor(0.0, head)
     raised = [

@@ -186,8 +186,7 @@ _RIGHT = ("count", "demand", "resistance", "guideline", "dip", "length", "proof"
 def _tabulate(
     lines: Sequence[AnchorLine], letters: dict[str, str], words: Words
 ) -> Table:
-    beside = ("used", "guideline")
-    keys = ("row", "anchor", "type", *_RIGHT[:3], *beside, *_RIGHT[4:], "notes")
+    keys = ("row", "anchor", "type", *_RIGHT[:3], "used", *_RIGHT[3:], "notes")
     rows, before = [], ""
     for line in lines:
         name, rated = show_text(line.row), line.rated

@@ -264,3 +264,15 @@ def test_the_posts_of_a_row_are_those_that_stand_on_its_length(tmp_path, unit, s
     rows = read_site(path).rows
     assert [row.post_count for row in rows] == [1 + bays for bays, _ in drawn]
     assert all(row.find_assumed("post_count") is None for row in rows)
+
+
+def test_a_row_that_is_shorter_than_a_bay_is_asked_about(tmp_path):
+    path = tmp_path / "werke.csv"
+    headings = "Reihe;Hangneigung [°];Schneehöhe lotrecht [m];Gleitfaktor N;D_K [m]"
+    lines = ["W1;36,5;3,3;1,9;3,0;3,6;3,5", "W2;37,2;3,3;1,9;3,0;3,6;3,6"]
+    heading = f"{headings};Stützenabstand [m];Reihenlänge [m]"
+    path.write_text("\n".join([heading, *lines]), encoding="utf-8")
+    text, _ = write_list_map(path)
+    name_map(path).write_text(text, encoding="utf-8")
+    asked = [[str(one) for one in row.questions] for row in read_site(path).rows]
+    assert [any("G2" in one for one in each) for each in asked] == [True, False]
